@@ -1,0 +1,45 @@
+# The three kinds of targets. Each takes every .cpp of its folder, so adding a file is adding a file.
+
+# voxlist_library(NAME DEPENDS...): target voxlist_NAME from common/NAME.
+function(voxlist_library name)
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp)
+  if(NOT sources)
+    return()
+  endif()
+  add_library(voxlist_${name} STATIC ${sources})
+  target_include_directories(voxlist_${name} PUBLIC ${CMAKE_SOURCE_DIR}/common)
+  target_link_libraries(voxlist_${name} PUBLIC ${ARGN})
+endfunction()
+
+# voxlist_program(NAME DEPENDS...): build/bin/NAME from services/NAME. Everything but main.cpp also
+# becomes the library voxlist_service_NAME, so that tests run a service in their own process.
+function(voxlist_program name)
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp)
+  list(FILTER sources EXCLUDE REGEX "/main\\.cpp$")
+  set(library voxlist_service_${name})
+  if(sources)
+    add_library(${library} STATIC ${sources})
+    target_include_directories(${library} PUBLIC ${CMAKE_SOURCE_DIR})
+    target_link_libraries(${library} PUBLIC ${ARGN})
+  else()
+    add_library(${library} INTERFACE)
+    target_link_libraries(${library} INTERFACE ${ARGN})
+  endif()
+  add_executable(${name}_program ${CMAKE_CURRENT_SOURCE_DIR}/${name}/main.cpp)
+  set_target_properties(${name}_program PROPERTIES OUTPUT_NAME ${name})
+  target_link_libraries(${name}_program PRIVATE ${library})
+endfunction()
+
+# voxlist_test(FOLDER DEPENDS...): program test_FOLDER from tests/FOLDER, each TEST its own ctest case.
+function(voxlist_test folder)
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*.cpp)
+  if(NOT sources)
+    return()
+  endif()
+  add_executable(test_${folder} ${sources})
+  target_link_libraries(test_${folder} PRIVATE ${ARGN} GTest::gtest_main)
+  target_include_directories(test_${folder} PRIVATE ${CMAKE_SOURCE_DIR} ${CMAKE_SOURCE_DIR}/tests)
+  target_compile_definitions(test_${folder} PRIVATE
+    VOXLIST_SOURCE_DIR="${CMAKE_SOURCE_DIR}" VOXLIST_BIN_DIR="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}")
+  gtest_discover_tests(test_${folder} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
+endfunction()

@@ -1,0 +1,45 @@
+#include "geometry/pose.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace voxlist {
+
+double wrap_angle(double angle_rad) {
+  const double wrapped = std::remainder(angle_rad, 2.0 * std::numbers::pi);
+  return wrapped == -std::numbers::pi ? std::numbers::pi : wrapped;
+}
+
+Pose2 Pose2::operator*(const Pose2& T_b_c) const {
+  const double c = std::cos(yaw_rad), s = std::sin(yaw_rad);
+  return {x_m + c * T_b_c.x_m - s * T_b_c.y_m, y_m + s * T_b_c.x_m + c * T_b_c.y_m,
+          wrap_angle(yaw_rad + T_b_c.yaw_rad)};
+}
+
+Pose2 Pose2::inverse() const {
+  const double c = std::cos(yaw_rad), s = std::sin(yaw_rad);
+  return {-c * x_m - s * y_m, s * x_m - c * y_m, wrap_angle(-yaw_rad)};
+}
+
+Eigen::Vector3d Pose2::operator*(const Eigen::Vector3d& p_b) const {
+  const double c = std::cos(yaw_rad), s = std::sin(yaw_rad);
+  return {x_m + c * p_b.x() - s * p_b.y(), y_m + s * p_b.x() + c * p_b.y(), p_b.z()};
+}
+
+Pose3 to_pose3(const Pose2& pose) {
+  Pose3 T = Pose3::Identity();
+  T.translation() << pose.x_m, pose.y_m, 0.0;
+  T.linear() = Eigen::AngleAxisd(pose.yaw_rad, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  return T;
+}
+
+Pose2 to_pose2(const Pose3& pose) {
+  const auto& R = pose.linear();
+  return {pose.translation().x(), pose.translation().y(), std::atan2(R(1, 0), R(0, 0))};
+}
+
+double distance_m(const Pose2& a, const Pose2& b) { return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m); }
+
+double turn_rad(const Pose2& a, const Pose2& b) { return std::abs(wrap_angle(a.yaw_rad - b.yaw_rad)); }
+
+}  // namespace voxlist
