@@ -1,0 +1,64 @@
+#include "voxels/voxel_map.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <set>
+
+namespace voxlist {
+namespace {
+
+std::vector<Voxel> random_voxels(unsigned seed, int count, int extent) {
+  std::mt19937 random(seed);
+  std::uniform_int_distribution<int> coordinate(-extent, extent);
+  std::vector<Voxel> voxels;
+  for (int i = 0; i < count; ++i) voxels.push_back({coordinate(random), coordinate(random), coordinate(random)});
+  return voxels;
+}
+
+TEST(VoxelMap, AgreesWithAnOrderedSetOnRandomVoxels) {
+  const auto voxels = random_voxels(1, 50000, 60);
+  VoxelMap map;
+  std::set<Voxel> reference;
+  for (const auto& v : voxels) EXPECT_EQ(map.insert(v), reference.insert(v).second);
+  EXPECT_EQ(map.size(), reference.size());
+  for (const auto& v : random_voxels(2, 50000, 70)) EXPECT_EQ(map.contains(v), reference.contains(v));
+  std::set<Voxel> visited;
+  map.for_each_voxel([&](const Voxel& v) { EXPECT_TRUE(visited.insert(v).second); });
+  EXPECT_EQ(visited, reference);
+}
+
+TEST(VoxelMap, DirectoryGrowsWithFarApartBlocks) {
+  VoxelMap map;
+  const auto voxels = random_voxels(3, 20000, kVoxelLimit);
+  for (const auto& v : voxels) map.insert(v);
+  EXPECT_TRUE(std::all_of(voxels.begin(), voxels.end(), [&](const Voxel& v) { return map.contains(v); }));
+  EXPECT_FALSE(map.contains({1, 2, 3}));
+}
+
+TEST(VoxelMap, HashDependsOnTheSetAlone) {
+  auto voxels = random_voxels(4, 5000, 100);
+  VoxelMap forward, backward;
+  for (const auto& v : voxels) forward.insert(v);
+  std::reverse(voxels.begin(), voxels.end());
+  for (const auto& v : voxels) backward.insert(v);
+  EXPECT_EQ(forward.hash(), backward.hash());
+  backward.insert({101, 0, 0});
+  EXPECT_NE(forward.hash(), backward.hash());
+  EXPECT_NE(VoxelMap(0.02).hash(), VoxelMap(0.04).hash());
+}
+
+TEST(VoxelMap, BlocksCarryAMapToAnother) {
+  VoxelMap map, copy;
+  for (const auto& v : random_voxels(5, 5000, 50)) map.insert(v);
+  for (std::size_t i = 0; i < map.block_count(); ++i) EXPECT_TRUE(copy.insert(map.block_position(i), map.block(i)));
+  EXPECT_EQ(copy.hash(), map.hash());
+  EXPECT_EQ(copy.size(), map.size());
+  EXPECT_FALSE(copy.insert(map.block_position(0), map.block(0)));
+}
+
+TEST(VoxelMap, RefusesAResolutionOfZero) { EXPECT_THROW(VoxelMap(0.0), std::invalid_argument); }
+
+}  // namespace
+}  // namespace voxlist
