@@ -37,7 +37,7 @@ function(voxlist_test folder)
     return()
   endif()
   add_executable(test_${folder} ${sources})
-  target_link_libraries(test_${folder} PRIVATE ${ARGN} GTest::gtest_main)
+  target_link_libraries(test_${folder} PRIVATE ${ARGN} GTest::gmock GTest::gtest_main)
   target_include_directories(test_${folder} PRIVATE ${CMAKE_SOURCE_DIR} ${CMAKE_SOURCE_DIR}/tests)
   target_compile_definitions(test_${folder} PRIVATE
     VOXLIST_SOURCE_DIR="${CMAKE_SOURCE_DIR}" VOXLIST_BIN_DIR="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}")
