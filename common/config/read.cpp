@@ -1,0 +1,188 @@
+#include <algorithm>
+#include <iterator>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+#include "config/config.h"
+#include "config/toml_document.h"
+
+namespace voxlist {
+namespace {
+
+// What a value of each type is called in a complaint, and how it is taken from a TOML node:
+// a whole number may stand for a float, nothing else is converted.
+template <class T>
+struct Kind;
+
+template <>
+struct Kind<bool> {
+  static constexpr auto kName = "true or false";
+  static std::optional<bool> from(const toml::node& node) { return node.value_exact<bool>(); }
+};
+
+template <>
+struct Kind<int> {
+  static constexpr auto kName = "a whole number of 32 bits";
+  static std::optional<int> from(const toml::node& node) {
+    const auto value = node.value_exact<std::int64_t>();
+    if (!value || !std::in_range<int>(*value)) return std::nullopt;
+    return static_cast<int>(*value);
+  }
+};
+
+template <>
+struct Kind<double> {
+  static constexpr auto kName = "a number";
+  static std::optional<double> from(const toml::node& node) {
+    if (const auto whole = node.value_exact<std::int64_t>()) return static_cast<double>(*whole);
+    return node.value_exact<double>();
+  }
+};
+
+template <>
+struct Kind<std::string> {
+  static constexpr auto kName = "a text in quotes";
+  static std::optional<std::string> from(const toml::node& node) {
+    return node.value_exact<std::string>();
+  }
+};
+
+template <class T>
+std::string shown(T value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
+std::string listed(const std::set<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+// Takes the keys of one struct from one table.
+class Reader : public SettingsVisitor {
+ public:
+  Reader(const std::filesystem::path& file, const std::string& name, const toml::table& table)
+      : file_(file), name_(name), table_(table) {}
+
+  void operator()(const char* key, bool& value, const char*) override { read(key, value); }
+  void operator()(const char* key, int& value, const char*, int min, int max) override {
+    if (const toml::node* node = read(key, value)) check_range(*node, key, value, min, max);
+  }
+  void operator()(const char* key, double& value, const char*, double min, double max) override {
+    if (const toml::node* node = read(key, value)) check_range(*node, key, value, min, max);
+  }
+  void operator()(const char* key, std::string& value, const char*) override { read(key, value); }
+  void operator()(const char* key, std::vector<double>& values, const char*, double min,
+                  double max) override {
+    const toml::node* node = read_list(key, values);
+    if (!node) return;
+    for (const double value : values) check_range(*node, key, value, min, max);
+  }
+  void operator()(const char* key, std::vector<std::string>& values, const char*) override {
+    read_list(key, values);
+  }
+
+  /// The complaints so far, and one for each key that no member asked for.
+  std::vector<std::string> complaints() const {
+    std::vector<std::string> all = complaints_;
+    for (const auto& [key, node] : table_) {
+      const std::string text(key.str());
+      if (keys_.contains(text)) continue;
+      all.push_back(complaint(file_, key.source().begin.line,
+                              "no key " + name_ + "." + text + "; known are " + listed(keys_)));
+    }
+    return all;
+  }
+
+ private:
+  // The node that the value was taken from; null if the file does not have it, or has it wrong.
+  template <class T>
+  const toml::node* read(const char* key, T& value) {
+    const toml::node* node = find(key);
+    if (!node) return nullptr;
+    const auto found = Kind<T>::from(*node);
+    if (!found) return complain(*node, key, std::string("must be ") + Kind<T>::kName);
+    value = *found;
+    return node;
+  }
+
+  template <class T>
+  const toml::node* read_list(const char* key, std::vector<T>& values) {
+    const toml::node* node = find(key);
+    if (!node) return nullptr;
+    const toml::array* array = node->as_array();
+    if (!array) return complain(*node, key, std::string("must be a list, each ") + Kind<T>::kName);
+    std::vector<T> found;
+    for (const toml::node& element : *array) {
+      const auto value = Kind<T>::from(element);
+      if (!value) return complain(element, key, std::string("must hold only ") + Kind<T>::kName);
+      found.push_back(*value);
+    }
+    values = std::move(found);
+    return node;
+  }
+
+  template <class T>
+  void check_range(const toml::node& node, const char* key, T value, T min, T max) {
+    if (value >= min && value <= max) return;
+    complain(node, key, "is " + shown(value) + ", must be " + shown(min) + " to " + shown(max));
+  }
+
+  const toml::node* find(const char* key) {
+    if (!keys_.insert(key).second) throw std::logic_error(name_ + " names a key twice: " + key);
+    return table_.get(key);
+  }
+
+  const toml::node* complain(const toml::node& node, const char* key, const std::string& what) {
+    complaints_.push_back(
+        complaint(file_, node.source().begin.line, name_ + "." + key + " " + what));
+    return nullptr;
+  }
+
+  const std::filesystem::path& file_;
+  const std::string& name_;
+  const toml::table& table_;
+  std::set<std::string> keys_;
+  std::vector<std::string> complaints_;
+};
+
+std::vector<std::string> check_tables(const std::filesystem::path& file, const toml::table& root,
+                                      const std::set<std::string>& known) {
+  std::vector<std::string> complaints;
+  for (const auto& [key, node] : root) {
+    const std::string name(key.str());
+    const auto line = key.source().begin.line;
+    if (!known.contains(name)) {
+      complaints.push_back(
+          complaint(file, line, "no table [" + name + "]; known are " + listed(known)));
+    } else if (!node.is_table()) {
+      complaints.push_back(complaint(file, line, name + " must be a table: [" + name + "]"));
+    }
+  }
+  return complaints;
+}
+
+}  // namespace
+
+std::vector<std::string> read_config(const std::filesystem::path& file,
+                                     const std::vector<Section>& sections,
+                                     const std::vector<std::string>& other_tables) {
+  auto [root, complaints] = parse_toml(file);
+  std::set<std::string> known(other_tables.begin(), other_tables.end());
+  const toml::table nothing;
+  for (const Section& section : sections) {
+    known.insert(section.name);
+    const toml::table* table = root[section.name].as_table();
+    Reader reader(file, section.name, table ? *table : nothing);
+    section.visit(reader);
+    std::ranges::copy(reader.complaints(), std::back_inserter(complaints));
+  }
+  std::ranges::copy(check_tables(file, root, known), std::back_inserter(complaints));
+  return complaints;
+}
+
+}  // namespace voxlist

@@ -1,0 +1,50 @@
+#include <gtest/gtest.h>
+
+#include "config/config.h"
+#include "config/sample_config.h"
+
+namespace voxlist {
+namespace {
+
+TEST(PrintConfig, WritesEachKeyUnderItsMeaningAndRange) {
+  SampleConfig sample;
+  EXPECT_EQ(to_toml({section("sample", sample)}),
+            "[sample]\n"
+            "# keep it all\n"
+            "keep = true\n"
+            "# how many (1 to 10)\n"
+            "scans = 3\n"
+            "# voxel edge (0.005 to 1.0)\n"
+            "resolution_m = 0.05\n"
+            "# where to\n"
+            "folder = \"map\"\n"
+            "# heights looked at (each 0.0 to 2.0)\n"
+            "heights_m = [0.1, 1.8]\n"
+            "# what they are called\n"
+            "names = [\"low\", \"high\"]\n");
+}
+
+TEST(PrintConfig, WritesTheSectionsOneAfterTheOther) {
+  struct One {
+    int count = 1;
+    void visit(SettingsVisitor& v) { v("count", count, "number", 0, 9); }
+  } first, second;
+  EXPECT_EQ(to_toml({section("first", first), section("second", second)}),
+            "[first]\n# number (0 to 9)\ncount = 1\n\n[second]\n# number (0 to 9)\ncount = 1\n");
+}
+
+TEST(MarkdownTable, HasARowForEachKey) {
+  SampleConfig sample;
+  EXPECT_EQ(markdown_table(section("sample", sample)),
+            "| key | default | range | meaning |\n"
+            "|---|---|---|---|\n"
+            "| `keep` | `true` |  | keep it all |\n"
+            "| `scans` | `3` | 1 to 10 | how many |\n"
+            "| `resolution_m` | `0.05` | 0.005 to 1.0 | voxel edge |\n"
+            "| `folder` | `\"map\"` |  | where to |\n"
+            "| `heights_m` | `[0.1, 1.8]` | each 0.0 to 2.0 | heights looked at |\n"
+            "| `names` | `[\"low\", \"high\"]` |  | what they are called |\n");
+}
+
+}  // namespace
+}  // namespace voxlist
