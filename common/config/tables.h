@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace voxlist {
+
+/// Every table that a robot's settings file (services/robot.toml) may have: the bus, and one for
+/// each service, in the order of services/README.md. A service looks only into its own, and
+/// complains about a table that nobody would read.
+inline const std::vector<std::string> kTables = {
+    "bus", "scan_source", "localiser", "mapper", "octomap_export", "obstacle_detector",
+};
+
+}  // namespace voxlist

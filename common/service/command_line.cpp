@@ -1,0 +1,59 @@
+#include "service/command_line.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdlib>
+#include <iostream>
+
+#include "bus/bus.h"
+#include "config/tables.h"
+
+namespace voxlist {
+
+Section bus_section(BusOptions& options) {
+  return {"bus", [&options](SettingsVisitor& v) {
+            v("url", options.url,
+              "LCM network; ttl=0 stays on this machine, ttl=1 on this network");
+            v("prefix", options.prefix, "put before every channel name, to tell robots apart");
+            v("receive_buffer_bytes", options.receive_buffer_bytes,
+              "asked of the kernel; a large cloud must fit", 100'000, 1'000'000'000);
+          }};
+}
+
+std::optional<int> read_command_line(int argc, char** argv, const ServiceInfo& info,
+                                     const Section& settings, BusOptions& bus) {
+  CLI::App app(info.purpose, info.name);
+  std::string file;
+  std::string url;
+  bool print = false;
+  app.add_option("--config", file,
+                 "settings file (TOML); lists only what differs from the defaults");
+  app.add_option("--lcm-url", url, "LCM network, before LCM_DEFAULT_URL and the settings file");
+  app.add_flag("--print-config", print, "print the settings in force as TOML, and end");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    std::cout << app.help();
+    return 0;
+  } catch (const CLI::ParseError& error) {
+    std::cerr << info.name << ": " << error.what() << "; see " << info.name << " --help\n";
+    return 1;
+  }
+
+  const std::vector<Section> sections = {bus_section(bus), settings};
+  if (!file.empty()) {
+    const auto complaints = read_config(file, sections, kTables);
+    for (const std::string& complaint : complaints)
+      std::cerr << info.name << ": " << complaint << '\n';
+    if (!complaints.empty()) return 1;
+  }
+  if (const char* from_environment = std::getenv("LCM_DEFAULT_URL");
+      from_environment && *from_environment) {
+    bus.url = from_environment;
+  }
+  if (!url.empty()) bus.url = url;
+  if (!print) return std::nullopt;
+  std::cout << to_toml(sections) << std::flush;
+  return 0;
+}
+
+}  // namespace voxlist

@@ -1,0 +1,121 @@
+#include "service/service.h"
+
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+#include <csignal>
+#include <iostream>
+#include <stdexcept>
+
+#include "bus/bus.h"
+#include "bus/health.h"
+#include "service/command_line.h"
+#include "service/drop_report.h"
+#include "service/instance_lock.h"
+#include "service/run_folder.h"
+#include "voxlist/health_t.hpp"
+
+namespace voxlist {
+namespace {
+
+constexpr std::chrono::milliseconds kTick(20);
+
+volatile std::sig_atomic_t g_stop_requested = 0;
+
+void request_stop(int) { g_stop_requested = 1; }
+
+void watch_signals() {
+  g_stop_requested = 0;
+  struct sigaction action = {};
+  action.sa_handler = request_stop;
+  sigaction(SIGTERM, &action, nullptr);
+  sigaction(SIGINT, &action, nullptr);
+  // A service outlives whoever reads its log.
+  std::signal(SIGPIPE, SIG_IGN);
+}
+
+void log_to_stderr(const std::string& name) {
+  auto logger =
+      std::make_shared<spdlog::logger>(name, std::make_shared<spdlog::sinks::stderr_sink_st>());
+  logger->set_pattern("%Y-%m-%d %H:%M:%S.%e %n %l: %v");
+  spdlog::set_default_logger(std::move(logger));
+}
+
+bool is_recording(const std::string& url) { return url.starts_with("file://"); }
+
+// The wall clock at the start and the steady clock from there on: nothing periodic stalls when
+// somebody sets the clock.
+class Clock {
+ public:
+  std::int64_t now_us() const {
+    using std::chrono::duration_cast, std::chrono::microseconds;
+    const auto elapsed = std::chrono::steady_clock::now() - steady_start_;
+    return duration_cast<microseconds>(wall_start_.time_since_epoch() + elapsed).count();
+  }
+
+ private:
+  std::chrono::system_clock::time_point wall_start_ = std::chrono::system_clock::now();
+  std::chrono::steady_clock::time_point steady_start_ = std::chrono::steady_clock::now();
+};
+
+void log_troubles(const Bus& bus, DropReport& drops, std::string& told_error, std::int64_t now_us) {
+  for (const std::string& line : drops.due(bus.counters(), now_us)) spdlog::warn("{}", line);
+  if (told_error == bus.first_handler_error()) return;
+  told_error = bus.first_handler_error();
+  spdlog::error("{}", told_error);
+}
+
+// False: the bus ended before anyone asked for it.
+bool run_until_stopped(Bus& bus, Health& health, RunningService& service) {
+  const Clock clock;
+  DropReport drops;
+  std::string told_error;
+  bool open = true;
+  while (open && !g_stop_requested) {
+    open = bus.handle(kTick);
+    const std::int64_t now_us = clock.now_us();
+    service.tick(now_us);
+    if (const auto message = health.due(now_us, bus.counters())) bus.publish(kHealth, *message);
+    log_troubles(bus, drops, told_error, now_us);
+  }
+  service.stop();
+  return open;
+}
+
+InstanceLock take_lock(const ServiceInfo& info, const BusOptions& options) {
+  const auto file = run_folder() / lock_name(info.name, options.url, options.prefix);
+  auto lock = InstanceLock::take(file);
+  if (!lock) {
+    throw std::runtime_error("already runs on this bus as process " + lock_owner(file) +
+                             "; stop that one first");
+  }
+  return std::move(*lock);
+}
+
+}  // namespace
+
+int run_service(int argc, char** argv, const ServiceInfo& info, const Section& settings,
+                const MakeService& make) try {
+  BusOptions options;
+  const auto exit_code = read_command_line(argc, argv, info, settings, options);
+  if (exit_code) return *exit_code;
+
+  watch_signals();
+  log_to_stderr(info.name);
+  const InstanceLock lock = take_lock(info, options);
+  Bus bus(options);
+  for (const std::string& warning : bus.warnings()) spdlog::warn("{}", warning);
+  Health health(info.name);
+  const auto service = make(bus, health);
+  spdlog::info("started on {}", options.url);
+  const bool wanted = run_until_stopped(bus, health, *service) || is_recording(options.url);
+  if (!wanted) throw std::runtime_error("the connection to " + options.url + " broke; start again");
+  spdlog::info("stopped");
+  return 0;
+} catch (const std::exception& error) {
+  std::cerr << info.name << ": " << error.what() << '\n';
+  return 1;
+}
+
+}  // namespace voxlist

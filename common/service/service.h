@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "config/config.h"
+
+namespace voxlist {
+
+class Bus;
+class Health;
+
+/// What a service is called (also its table in the settings file and its lock) and what it is for,
+/// in one sentence for --help.
+struct ServiceInfo {
+  std::string name;
+  std::string purpose;
+};
+
+/// A service as the loop sees it.
+class RunningService {
+ public:
+  virtual ~RunningService() = default;
+
+  /// Called after messages and at least about every 20 ms. `now_us` starts as the wall clock and
+  /// never jumps.
+  virtual void tick(std::int64_t now_us) = 0;
+
+  /// Called once before a wanted end.
+  virtual void stop() = 0;
+};
+
+using MakeService = std::function<std::unique_ptr<RunningService>(Bus&, Health&)>;
+
+/// Reads the command line and the settings, takes the service's lock, connects, makes the service,
+/// and runs it until SIGTERM or SIGINT, or until a recording that is its bus has ended. HEALTH goes
+/// out once a second. Returns the exit code: 0 after a wanted end, 1 with one line on stderr when
+/// it cannot start or the service throws.
+int run_service(int argc, char** argv, const ServiceInfo& info, const Section& settings,
+                const MakeService& make);
+
+/// The main of a service: Service is made as Service(Bus&, Health&, const Config&) and may have
+/// tick(now_us) and stop().
+template <class Service, class Config>
+int run_service(int argc, char** argv, const ServiceInfo& info) {
+  struct Adapter : RunningService {
+    Adapter(Bus& bus, Health& health, const Config& config) : service(bus, health, config) {}
+    void tick([[maybe_unused]] std::int64_t now_us) override {
+      if constexpr (requires(Service & s) { s.tick(now_us); }) service.tick(now_us);
+    }
+    void stop() override {
+      if constexpr (requires(Service & s) { s.stop(); }) service.stop();
+    }
+    Service service;
+  };
+  Config config;
+  return run_service(argc, argv, info, section(info.name, config), [&](Bus& bus, Health& health) {
+    return std::make_unique<Adapter>(bus, health, config);
+  });
+}
+
+}  // namespace voxlist

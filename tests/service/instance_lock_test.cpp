@@ -1,0 +1,64 @@
+#include "service/instance_lock.h"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <stdexcept>
+
+#include "service/run_folder.h"
+#include "service/run_folder_fixture.h"
+
+namespace voxlist {
+namespace {
+
+class Lock : public WithRunFolder {};
+class RunFolder : public WithRunFolder {};
+
+TEST_F(Lock, IsHeldByOneOnly) {
+  const auto first = InstanceLock::take(folder_ / "a.lock");
+  ASSERT_TRUE(first);
+  EXPECT_FALSE(InstanceLock::take(folder_ / "a.lock"));
+  EXPECT_TRUE(InstanceLock::take(folder_ / "b.lock"));
+}
+
+TEST_F(Lock, IsFreeAgainWhenItsOwnerIsGone) {
+  { const auto first = InstanceLock::take(folder_ / "a.lock"); }
+  EXPECT_TRUE(InstanceLock::take(folder_ / "a.lock"));
+}
+
+TEST_F(Lock, TellsWhoHoldsIt) {
+  EXPECT_EQ(lock_owner(folder_ / "a.lock"), "?");
+  const auto lock = InstanceLock::take(folder_ / "a.lock");
+  EXPECT_EQ(lock_owner(folder_ / "a.lock"), std::to_string(getpid()));
+}
+
+TEST_F(Lock, SaysWhereItCannotBeWritten) {
+  EXPECT_THROW(InstanceLock::take(folder_ / "no" / "a.lock"), std::runtime_error);
+}
+
+TEST_F(Lock, HasANameForEachServiceOnEachBus) {
+  const auto name = lock_name("mapper", "udpm://239.255.76.67:7667?ttl=0", "");
+  EXPECT_EQ(name, lock_name("mapper", "udpm://239.255.76.67:7667?ttl=1", ""));
+  EXPECT_NE(name, lock_name("localiser", "udpm://239.255.76.67:7667?ttl=0", ""));
+  EXPECT_NE(name, lock_name("mapper", "udpm://239.255.76.67:7668?ttl=0", ""));
+  EXPECT_NE(name, lock_name("mapper", "udpm://239.255.76.67:7667?ttl=0", "robot_2/"));
+  EXPECT_EQ(name.find('/'), std::string::npos);
+}
+
+TEST_F(RunFolder, IsMadeWhereTheEnvironmentSays) {
+  setenv("VOXLIST_RUN_DIR", (folder_ / "run").c_str(), 1);
+  EXPECT_EQ(run_folder(), folder_ / "run");
+  struct stat info;
+  ASSERT_EQ(stat((folder_ / "run").c_str(), &info), 0);
+  EXPECT_EQ(info.st_mode & 0777, 0700U);
+}
+
+TEST_F(RunFolder, IsRefusedWhenItIsNoFolder) {
+  std::filesystem::create_symlink("/tmp", folder_ / "link");
+  setenv("VOXLIST_RUN_DIR", (folder_ / "link").c_str(), 1);
+  EXPECT_THROW(run_folder(), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace voxlist

@@ -1,0 +1,167 @@
+#include "service/service.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <fstream>
+#include <stdexcept>
+
+#include "bus/bus.h"
+#include "service/instance_lock.h"
+#include "service/run_folder_fixture.h"
+#include "voxlist/pose_t.hpp"
+
+namespace voxlist {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::StartsWith;
+
+struct CounterConfig {
+  int ticks = 3;
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v("ticks", ticks, "ticks until it asks for its own end", 1, 100);
+  }
+};
+
+// Publishes once and listens to itself; ends the process by a real SIGTERM after some ticks.
+class CounterService {
+ public:
+  CounterService(Bus& bus, Health&, const CounterConfig& config) : ticks_wanted(config.ticks) {
+    seen = {};
+    bus.subscribe(kPose, [](const pose_t&) { ++seen.messages; });
+    bus.publish(kPose, pose_t{});
+  }
+  void tick(std::int64_t now_us) {
+    seen.clock_never_went_back &= now_us >= seen.last_tick_us;
+    seen.last_tick_us = now_us;
+    if (++seen.ticks == ticks_wanted) std::raise(SIGTERM);
+  }
+  void stop() { seen.stopped = true; }
+
+  struct Seen {
+    int messages = 0;
+    int ticks = 0;
+    std::int64_t last_tick_us = 0;
+    bool clock_never_went_back = true;
+    bool stopped = false;
+  };
+  static Seen seen;
+
+ private:
+  int ticks_wanted;
+};
+CounterService::Seen CounterService::seen;
+
+class BrokenService {
+ public:
+  BrokenService(Bus&, Health&, const CounterConfig&) {
+    throw std::runtime_error("map folder /none: cannot be made; choose another");
+  }
+};
+
+class RunService : public WithRunFolder {
+ protected:
+  // Runs the service with these arguments; keeps what it wrote.
+  template <class Service>
+  int run(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "mapper");
+    std::vector<char*> argv;
+    for (std::string& argument : arguments) argv.push_back(argument.data());
+    testing::internal::CaptureStdout();
+    testing::internal::CaptureStderr();
+    const int code = run_service<Service, CounterConfig>(static_cast<int>(argv.size()), argv.data(),
+                                                         {"mapper", "Counts its ticks."});
+    out_ = testing::internal::GetCapturedStdout();
+    err_ = testing::internal::GetCapturedStderr();
+    return code;
+  }
+
+  std::string write_config(const std::string& text) {
+    std::ofstream(folder_ / "robot.toml") << text;
+    return (folder_ / "robot.toml").string();
+  }
+
+  std::string out_, err_;
+};
+
+TEST_F(RunService, HandlesMessagesTicksAndStopsOnSigterm) {
+  EXPECT_EQ(run<CounterService>({"--lcm-url", "memq://"}), 0);
+  EXPECT_EQ(CounterService::seen.ticks, 3);
+  EXPECT_EQ(CounterService::seen.messages, 1);
+  EXPECT_TRUE(CounterService::seen.clock_never_went_back);
+  EXPECT_TRUE(CounterService::seen.stopped);
+  EXPECT_THAT(out_, IsEmpty());
+}
+
+TEST_F(RunService, TakesItsSettingsFromTheFile) {
+  const auto file =
+      write_config("[bus]\nurl = 'memq://'\n[mapper]\nticks = 5\n[localiser]\nx = 1\n");
+  EXPECT_EQ(run<CounterService>({"--config", file}), 0);
+  EXPECT_EQ(CounterService::seen.ticks, 5);
+}
+
+TEST_F(RunService, TellsAllThatIsWrongWithTheFileAndDoesNotStart) {
+  CounterService::seen = {};
+  const auto file = write_config("[mapper]\nticks = 0\ntocks = 1\n[nobody]\n");
+  EXPECT_EQ(run<CounterService>({"--config", file}), 1);
+  EXPECT_THAT(err_, HasSubstr("mapper: " + file + ":2: mapper.ticks is 0"));
+  EXPECT_THAT(err_, HasSubstr("mapper: " + file + ":3: no key mapper.tocks"));
+  EXPECT_THAT(err_, HasSubstr("mapper: " + file + ":4: no table [nobody]"));
+  EXPECT_EQ(CounterService::seen.ticks, 0);
+}
+
+TEST_F(RunService, PrintsTheSettingsInForce) {
+  const auto file = write_config("[bus]\nprefix = 'r2/'\n[mapper]\nticks = 5\n");
+  setenv("LCM_DEFAULT_URL", "memq://", 1);
+  EXPECT_EQ(run<CounterService>({"--config", file, "--print-config"}), 0);
+  EXPECT_THAT(out_, StartsWith("[bus]\n"));
+  EXPECT_THAT(out_, HasSubstr("url = \"memq://\"\n"));
+  EXPECT_THAT(out_, HasSubstr("prefix = \"r2/\"\n"));
+  EXPECT_THAT(out_,
+              HasSubstr("[mapper]\n# ticks until it asks for its own end (1 to 100)\nticks = 5\n"));
+}
+
+TEST_F(RunService, TakesTheUrlFromTheCommandLineBeforeTheEnvironmentBeforeTheFile) {
+  const auto file = write_config("[bus]\nurl = 'udpm://1.1.1.1:1'\n");
+  EXPECT_EQ(run<CounterService>({"--config", file, "--print-config"}), 0);
+  EXPECT_THAT(out_, HasSubstr("url = \"udpm://1.1.1.1:1\"\n"));
+  setenv("LCM_DEFAULT_URL", "udpm://2.2.2.2:2", 1);
+  EXPECT_EQ(run<CounterService>({"--config", file, "--print-config"}), 0);
+  EXPECT_THAT(out_, HasSubstr("url = \"udpm://2.2.2.2:2\"\n"));
+  EXPECT_EQ(run<CounterService>({"--config", file, "--print-config", "--lcm-url", "memq://"}), 0);
+  EXPECT_THAT(out_, HasSubstr("url = \"memq://\"\n"));
+}
+
+TEST_F(RunService, ExplainsItself) {
+  EXPECT_EQ(run<CounterService>({"--help"}), 0);
+  EXPECT_THAT(out_, HasSubstr("Counts its ticks."));
+  EXPECT_THAT(out_, HasSubstr("--print-config"));
+}
+
+TEST_F(RunService, RefusesAnOptionThatItDoesNotKnow) {
+  EXPECT_EQ(run<CounterService>({"--colour", "red"}), 1);
+  EXPECT_THAT(err_, StartsWith("mapper: "));
+  EXPECT_THAT(err_, HasSubstr("mapper --help"));
+}
+
+TEST_F(RunService, SaysInOneLineWhyItCannotStart) {
+  EXPECT_EQ(run<BrokenService>({"--lcm-url", "memq://"}), 1);
+  EXPECT_EQ(err_, "mapper: map folder /none: cannot be made; choose another\n");
+}
+
+TEST_F(RunService, DoesNotStartBesideAnotherOfItsKindOnTheSameBus) {
+  const auto held = InstanceLock::take(folder_ / lock_name("mapper", "memq://", ""));
+  EXPECT_EQ(run<CounterService>({"--lcm-url", "memq://"}), 1);
+  EXPECT_EQ(err_, "mapper: already runs on this bus as process " + std::to_string(getpid()) +
+                      "; stop that one first\n");
+  EXPECT_EQ(run<CounterService>(
+                {"--lcm-url", "memq://", "--config", write_config("[bus]\nprefix = 'r2/'\n")}),
+            0);
+}
+
+}  // namespace
+}  // namespace voxlist
