@@ -8,7 +8,7 @@ program=$(basename "$0")
 services=(localiser mapper octomap_export obstacle_detector)
 
 # Tools of LCM get a buffer that holds whole scans: with LCM's own default most large messages are lost.
-lcm_url=${LCM_DEFAULT_URL:-udpm://239.255.76.67:7667?ttl=0&recv_buf_size=4000000}
+lcm_url=${LCM_DEFAULT_URL:-udpm://239.255.76.67:7667?ttl=0&recv_buf_size=8000000}
 
 say() { echo "$program: $*" >&2; }
 
