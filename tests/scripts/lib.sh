@@ -1,0 +1,46 @@
+# What the tests of the scripts share. Sourced, never run.
+# shellcheck shell=bash disable=SC2034
+
+scripts=$(cd "$(dirname "${BASH_SOURCE[0]}")/../../scripts" && pwd)
+work=$(mktemp -d /tmp/voxlist_test.XXXXXX)
+trap 'rm -rf "$work"' EXIT
+
+skip() {
+  echo "skipped: $*"
+  exit 77
+}
+
+# check CLAIM COMMAND...: the command must succeed.
+check() {
+  local claim=$1
+  shift
+  if "$@" >"$work/output" 2>&1; then
+    echo "ok: $claim"
+  else
+    echo "FAILED: $claim"
+    cat "$work/output"
+    exit 1
+  fi
+}
+
+# says PATTERN COMMAND...: what the command writes must match, whatever its exit code.
+says() {
+  local pattern=$1
+  shift
+  ("$@" || true) 2>&1 | tee /dev/stderr | grep -Eq -- "$pattern"
+}
+
+# fails COMMAND...: it must not succeed.
+fails() { ! "$@"; }
+
+# within SECONDS COMMAND...: it must succeed before that time is over.
+within() {
+  local end=$((${EPOCHREALTIME/./} + $1 * 1000000))
+  shift
+  until "$@"; do
+    ((${EPOCHREALTIME/./} < end)) || return 1
+    sleep 0.05
+  done
+}
+
+private_network() { "$scripts/netns" true 2>/dev/null; }
