@@ -15,8 +15,8 @@ struct BuildingConfig {
   double depth_m = 12.0;   ///< across it
   double height_m = 2.6;   ///< floor to ceiling
   double corridor_width_m = 2.2;
-  int rooms = 6;               ///< alternately left and right of the corridor
-  int furniture_per_room = 5;  ///< tried for; what would block the way is left out
+  int rooms = 6;                ///< alternately left and right of the corridor
+  int furniture_per_room = 12;  ///< tried for; what would block the way is left out
   std::uint64_t seed = 1;
 };
 

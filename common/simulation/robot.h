@@ -24,7 +24,7 @@ struct DriveConfig {
 struct OdometryConfig {
   double rate_hz = 50.0;
   double distance_scale_sd = 0.01;
-  double turn_scale_sd = 0.02;
+  double turn_scale_sd = 0.01;
   double distance_noise_m = 0.005;  ///< standard deviation after 1 m
   double heading_noise_deg = 0.5;   ///< standard deviation after 1 m
 };

@@ -1,0 +1,106 @@
+#include "planning/octomap.h"
+
+#include <octomap/OcTree.h>
+
+#include <sstream>
+#include <string>
+
+#include "io/atomic_file.h"
+
+namespace voxlist {
+namespace {
+
+octomap::point3d to_octomap(const Eigen::Vector3d& p) {
+  const Eigen::Vector3f f = p.cast<float>();
+  return {f.x(), f.y(), f.z()};
+}
+
+std::string to_bt(octomap::OcTree copy) {  // a copy: writeBinary rounds the tree that it writes
+  std::ostringstream out;
+  copy.writeBinary(out);
+  return out.str();
+}
+
+// The voxels that one cloud's rays pass through and end in.
+struct RayCells {
+  octomap::KeySet passed, hit;
+
+  void add(const octomap::OcTree& octree, const octomap::point3d& origin, octomap::point3d end,
+           double max_range_m) {
+    const octomap::point3d ray = end - origin;
+    const bool in_range = max_range_m < 0.0 || ray.norm() <= max_range_m;
+    if (!in_range) end = origin + ray.normalized() * static_cast<float>(max_range_m);
+    octomap::OcTreeKey first, last;
+    if (!octree.coordToKeyChecked(origin, first) || !octree.coordToKeyChecked(end, last)) return;
+    octree.computeRayKeys(origin, end, keys_);
+    passed.insert(keys_.begin(), keys_.end());
+    if (in_range) hit.insert(last);
+  }
+
+ private:
+  octomap::KeyRay keys_;
+};
+
+}  // namespace
+
+struct OctomapBuilder::Tree {
+  explicit Tree(const OctomapConfig& config)
+      : octree(config.resolution_m), max_range_m(config.max_range_m) {
+    octree.setProbHit(config.hit_probability);
+    octree.setProbMiss(config.miss_probability);
+  }
+
+  octomap::OcTree octree;
+  double max_range_m;
+};
+
+OctomapBuilder::OctomapBuilder(const OctomapConfig& config)
+    : tree_(std::make_unique<Tree>(config)) {}
+OctomapBuilder::~OctomapBuilder() = default;
+OctomapBuilder::OctomapBuilder(OctomapBuilder&&) noexcept = default;
+OctomapBuilder& OctomapBuilder::operator=(OctomapBuilder&&) noexcept = default;
+
+void OctomapBuilder::insert(const Pose3& T_map_base, const Cloud& cloud_base) {
+  octomap::OcTree& octree = tree_->octree;
+  RayCells cells;
+  for (std::size_t i = 0; i < cloud_base.points.size(); ++i)
+    cells.add(octree, to_octomap(T_map_base * cloud_base.origin(i).cast<double>()),
+              to_octomap(T_map_base * cloud_base.points[i].cast<double>()), tree_->max_range_m);
+  for (const octomap::OcTreeKey& key : cells.passed)
+    if (cells.hit.count(key) == 0) octree.updateNode(key, false);
+  for (const octomap::OcTreeKey& key : cells.hit) octree.updateNode(key, true);
+}
+
+std::vector<std::uint8_t> OctomapBuilder::binary() const {
+  const std::string bytes = to_bt(tree_->octree);
+  return {bytes.begin(), bytes.end()};
+}
+
+void OctomapBuilder::write_bt(const std::filesystem::path& path) const {
+  write_file_atomically(path, to_bt(tree_->octree));
+}
+
+void OctomapBuilder::write_ot(const std::filesystem::path& path) const {
+  std::ostringstream out;
+  tree_->octree.write(out);
+  write_file_atomically(path, out.str());
+}
+
+OctomapSize OctomapBuilder::size() const {
+  const octomap::OcTree& octree = tree_->octree;
+  OctomapSize size;
+  size.nodes = octree.size();
+  for (auto leaf = octree.begin_leafs(); leaf != octree.end_leafs(); ++leaf) {
+    const std::size_t edge = std::size_t{1} << (octree.getTreeDepth() - leaf.getDepth());
+    (octree.isNodeOccupied(*leaf) ? size.occupied : size.free) += edge * edge * edge;
+  }
+  return size;
+}
+
+Occupancy OctomapBuilder::at(const Eigen::Vector3d& point_map) const {
+  const octomap::OcTreeNode* node = tree_->octree.search(to_octomap(point_map));
+  if (node == nullptr) return Occupancy::kUnknown;
+  return tree_->octree.isNodeOccupied(node) ? Occupancy::kOccupied : Occupancy::kFree;
+}
+
+}  // namespace voxlist

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "geometry/cloud.h"
+#include "geometry/pose.h"
+
+namespace voxlist {
+
+/// What an OctoMap is made with. The probabilities are OctoMap's own defaults.
+struct OctomapConfig {
+  double resolution_m = 0.1;  ///< edge of the smallest voxel
+  double max_range_m =
+      -1.0;  ///< longer rays only free this much of their way, and hit nothing; negative: no limit
+  double hit_probability = 0.7;   ///< of a voxel after one hit: above 0.5
+  double miss_probability = 0.4;  ///< of a voxel after one pass: below 0.5
+};
+
+/// What an OctoMap knows of a place.
+enum class Occupancy { kUnknown, kFree, kOccupied };
+
+/// How much an OctoMap holds. Voxels are of the smallest size, whatever leaf stands for them.
+struct OctomapSize {
+  std::size_t free = 0;
+  std::size_t occupied = 0;
+  std::size_t nodes = 0;  ///< of the tree
+
+  std::size_t known() const { return free + occupied; }
+};
+
+/// Builds an OctoMap from clouds with poses by OctoMap's own ray insertion, every ray from where it
+/// started, at full length, cell by cell. Slow and right: the reference that faster ones are held
+/// against. The same clouds in the same order give the same bytes.
+class OctomapBuilder {
+ public:
+  explicit OctomapBuilder(const OctomapConfig& config);
+  ~OctomapBuilder();
+  OctomapBuilder(OctomapBuilder&&) noexcept;
+  OctomapBuilder& operator=(OctomapBuilder&&) noexcept;
+
+  /// Adds a cloud: frees the voxels that its rays pass, occupies those that they hit; a voxel
+  /// counts once a cloud, and one both hit and passed is hit, as in octomap's insertPointCloud.
+  /// Rays that leave the tree's bounds (2^15 voxels from the origin) are left out.
+  void insert(const Pose3& T_map_base, const Cloud& cloud_base);
+
+  /// The bytes of a .bt file, as map_octree_t carries them: every voxel free or occupied, pruned.
+  std::vector<std::uint8_t> binary() const;
+
+  /// Writes a .bt file, never one that is half there. Throws FileError when it cannot.
+  void write_bt(const std::filesystem::path& path) const;
+
+  /// Writes an .ot file, every voxel with its log-odds, in the same way.
+  void write_ot(const std::filesystem::path& path) const;
+
+  OctomapSize size() const;
+
+  /// What is known of the voxel that holds a point of the map.
+  Occupancy at(const Eigen::Vector3d& point_map) const;
+
+ private:
+  struct Tree;
+  std::unique_ptr<Tree> tree_;
+};
+
+}  // namespace voxlist
