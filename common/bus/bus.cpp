@@ -1,0 +1,163 @@
+#include "bus/bus.h"
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+#include <optional>
+#include <stdexcept>
+
+#include "bus/transport.h"
+
+namespace voxlist {
+namespace {
+
+// liblcm drops the newest when its queue is full. kEvery: five seconds of 100 Hz odometry behind a
+// slow handler. kLatest: a few seconds of slices, which cost memory while they wait only to be
+// skipped.
+constexpr int kEveryCapacity = 512;
+constexpr int kLatestCapacity = 64;
+
+constexpr std::size_t kMaxChannelName = 63;
+
+const std::string kFileScheme = "file://";
+
+bool is_plain(const std::string& channel) {
+  const auto allowed = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-' || c == '/';
+  };
+  return std::ranges::all_of(channel, allowed);
+}
+
+std::string log_path(const std::string& url) {
+  return url.substr(kFileScheme.size(), url.find('?') - kFileScheme.size());
+}
+
+struct Waiting {
+  std::vector<std::uint8_t> bytes;
+  std::int64_t arrival_utime_us = 0;
+};
+
+struct Subscription {
+  std::string channel;
+  Fault (*check)(Bytes);
+  std::function<Fault(Bytes)> take;
+  Delivery delivery;
+  std::optional<Waiting> waiting;
+};
+
+}  // namespace
+
+struct Bus::Impl {
+  std::string prefix;
+  std::unique_ptr<Transport> transport;
+  // By the name on the wire. A map: handlers may subscribe while one of them runs.
+  std::map<std::string, Subscription> subscriptions;
+  Counters counters;
+  std::vector<std::string> warnings;
+  std::string first_handler_error;
+  std::int64_t arrival_utime_us = 0;
+
+  void count(const std::string& channel, const char* what) { ++counters[channel + '/' + what]; }
+
+  void handler_failed(const std::string& channel, const char* what) {
+    count(channel, "handler_failed");
+    if (first_handler_error.empty()) first_handler_error = channel + ": " + what;
+  }
+
+  void deliver(const Subscription& to, Bytes bytes, std::int64_t arrival) {
+    arrival_utime_us = arrival;
+    try {
+      const Fault fault = to.take(bytes);
+      count(to.channel, fault == Fault::kNone ? "handled" : fault_name(fault));
+    } catch (const std::exception& error) {
+      handler_failed(to.channel, error.what());
+    } catch (...) {
+      handler_failed(to.channel, "an exception that is no std::exception");
+    }
+  }
+
+  // Checked on arrival, so that a bad message never supersedes a good one.
+  void keep(Subscription& to, const RawMessage& message) {
+    if (const Fault fault = to.check(message.bytes); fault != Fault::kNone) {
+      return count(to.channel, fault_name(fault));
+    }
+    if (to.waiting) count(to.channel, "superseded");
+    to.waiting = Waiting{{message.bytes.begin(), message.bytes.end()}, message.arrival_utime_us};
+  }
+
+  void receive(const RawMessage& message) {
+    const auto found = subscriptions.find(message.channel);
+    if (found == subscriptions.end()) return;
+    Subscription& to = found->second;
+    count(to.channel, "received");
+    if (to.delivery == Delivery::kEvery)
+      return deliver(to, message.bytes, message.arrival_utime_us);
+    keep(to, message);
+  }
+
+  void deliver_waiting() {
+    for (auto& [wire_name, to] : subscriptions) {
+      if (!to.waiting) continue;
+      const Waiting message = std::move(*to.waiting);
+      to.waiting.reset();
+      deliver(to, message.bytes, message.arrival_utime_us);
+    }
+  }
+};
+
+Bus::Bus(const BusOptions& options) : impl_(std::make_unique<Impl>()) {
+  if (!is_plain(options.prefix)) {
+    throw std::runtime_error("bus: channel prefix '" + options.prefix +
+                             "' may only hold letters, digits, _ - and /");
+  }
+  impl_->prefix = options.prefix;
+  impl_->transport = options.url.starts_with(kFileScheme) ? open_log(log_path(options.url))
+                                                          : open_lcm(options, impl_->warnings);
+}
+
+Bus::~Bus() = default;
+
+void Bus::publish_encoded(const std::string& channel, Bytes bytes) {
+  const std::string wire_name = impl_->prefix + channel;
+  const bool sent = wire_name.size() <= kMaxChannelName && impl_->transport->send(wire_name, bytes);
+  impl_->count(channel, sent ? "sent" : "unsent_refused");
+}
+
+void Bus::count_unsent(const std::string& channel, const char* reason) {
+  ++impl_->counters[channel + "/unsent_" + reason];
+}
+
+void Bus::subscribe_encoded(const std::string& channel, Check check, Take take, Delivery delivery) {
+  const std::string wire_name = impl_->prefix + channel;
+  if (!is_plain(channel) || wire_name.size() > kMaxChannelName) {
+    throw std::runtime_error("bus: channel name " + wire_name + " is longer than 63 or not plain");
+  }
+  if (impl_->subscriptions.contains(wire_name)) {
+    throw std::logic_error("bus: subscribed twice to " + wire_name);
+  }
+  impl_->transport->listen(wire_name,
+                           delivery == Delivery::kEvery ? kEveryCapacity : kLatestCapacity);
+  impl_->subscriptions.emplace(wire_name,
+                               Subscription{channel, check, std::move(take), delivery, {}});
+}
+
+bool Bus::handle(std::chrono::milliseconds timeout) {
+  using Received = Transport::Received;
+  const auto receiver = [this](const RawMessage& message) { impl_->receive(message); };
+  Received last = Received::kMessage;
+  for (int n = 0; n < impl_->transport->batch() && last == Received::kMessage; ++n) {
+    last = impl_->transport->receive(n == 0 ? timeout : std::chrono::milliseconds(0), receiver);
+  }
+  impl_->deliver_waiting();
+  return last != Received::kEnded;
+}
+
+const Counters& Bus::counters() const { return impl_->counters; }
+
+const std::vector<std::string>& Bus::warnings() const { return impl_->warnings; }
+
+const std::string& Bus::first_handler_error() const { return impl_->first_handler_error; }
+
+std::int64_t Bus::arrival_utime_us() const { return impl_->arrival_utime_us; }
+
+}  // namespace voxlist

@@ -1,0 +1,110 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "bus/channels.h"
+#include "bus/counters.h"
+#include "bus/wire.h"
+
+namespace voxlist {
+
+/// Where a Bus connects.
+struct BusOptions {
+  /// udpm://GROUP:PORT?ttl=N (0: this machine, 1: this network), memq:// (this object alone), or
+  /// file://PATH (reads an event log, one event a handle(); nothing can be published).
+  std::string url = "udpm://239.255.76.67:7667?ttl=0";
+
+  /// Put before every channel name, to tell robots apart: letters, digits, _ - /.
+  std::string prefix;
+
+  /// Receive buffer asked of the kernel. With the system's usual 212,992 B a large cloud hardly
+  /// ever arrives whole.
+  int receive_buffer_bytes = 8'000'000;
+};
+
+enum class Delivery {
+  /// Every message, at once, in the order of arrival.
+  kEvery,
+  /// Only the newest of those that wait, after all kEvery messages that wait: for handlers slower
+  /// than their channel.
+  kLatest,
+};
+
+/// The one door to LCM. Nothing that arrives, and nothing that a handler throws, gets past it:
+/// bytes are checked before they are decoded, and what is refused is counted by reason. Use one Bus
+/// from one thread.
+///
+/// counters(), where CH is the channel without prefix: CH/received = CH/handled + CH/handler_failed
+/// + CH/superseded
+/// + the sum of CH/<fault_name>, once handle() has returned. CH/sent, CH/unsent_<reason> for
+/// publishing.
+class Bus {
+ public:
+  /// Connects. Throws std::runtime_error that says what, where, and what to do about it.
+  explicit Bus(const BusOptions& options);
+  ~Bus();
+  Bus(const Bus&) = delete;
+  Bus& operator=(const Bus&) = delete;
+
+  /// Sends a message, or counts why it could not be sent.
+  template <class M>
+  void publish(Channel<M> channel, const M& message) {
+    std::vector<std::uint8_t> bytes;
+    const Fault fault = encode(message, bytes);
+    if (fault != Fault::kNone) return count_unsent(channel.name, fault_name(fault));
+    publish_encoded(channel.name, bytes);
+  }
+
+  /// Sends bytes as they are: for replaying recordings. They are not checked.
+  void publish_encoded(const std::string& channel, Bytes bytes);
+
+  /// Calls `handler` from within handle() with messages of the channel. Once a channel: a second
+  /// time throws std::logic_error.
+  template <class M>
+  void subscribe(Channel<M> channel, std::function<void(const std::type_identity_t<M>&)> handler,
+                 Delivery delivery = Delivery::kEvery) {
+    const auto take = [handler = std::move(handler)](Bytes bytes) {
+      M message{};
+      const Fault fault = decode(bytes, message);
+      if (fault == Fault::kNone) handler(message);
+      return fault;
+    };
+    subscribe_encoded(channel.name, &check_wire<M>, take, delivery);
+  }
+
+  /// Waits up to `timeout` for a message, then handles all that wait (256 at most). A signal ends
+  /// the wait early. False: nothing will come any more, because the log has ended or the connection
+  /// broke.
+  bool handle(std::chrono::milliseconds timeout);
+
+  /// What happened so far, by channel.
+  const Counters& counters() const;
+
+  /// What is not as asked but no reason to stop, for the service's log: one line each, with the
+  /// remedy.
+  const std::vector<std::string>& warnings() const;
+
+  /// "CHANNEL: what" of the first exception that left a handler; empty when none did.
+  const std::string& first_handler_error() const;
+
+  /// When the message being handled arrived here, or was recorded: microseconds of the wall clock.
+  std::int64_t arrival_utime_us() const;
+
+ private:
+  using Check = Fault (*)(Bytes);
+  using Take = std::function<Fault(Bytes)>;
+
+  void subscribe_encoded(const std::string& channel, Check check, Take take, Delivery delivery);
+  void count_unsent(const std::string& channel, const char* reason);
+
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace voxlist

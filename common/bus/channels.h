@@ -1,0 +1,70 @@
+#pragma once
+
+namespace voxlist {
+
+// The generated types; include <voxlist/pose_t.hpp> and the like where a message is made or read.
+class health_t;
+class keyframe_t;
+class localisation_t;
+class map_octree_t;
+class map_request_t;
+class map_update_t;
+class obstacles_t;
+class pointcloud_t;
+class pose_t;
+
+/// A channel's name, tied to the one type that travels on it.
+template <class M>
+struct Channel {
+  const char* name;
+};
+
+/// One whole 3D scan. Frame: base, at the sweep's end. Rate: about 1 Hz.
+/// From the scan source (or any 3D laser) to localiser, mapper, obstacle_detector.
+inline constexpr Channel<pointcloud_t> kCloud{"CLOUD"};
+
+/// A part of a sweep, for low latency. Frame: base, at the part's end. Rate: about 15 Hz.
+/// From the scan source to obstacle_detector.
+inline constexpr Channel<pointcloud_t> kCloudSlice{"CLOUD_SLICE"};
+
+/// Dead reckoning. Frame: odom (drifts, never jumps). Rate: 20-100 Hz.
+/// From the robot base (or a simulator, or a recording) to localiser.
+inline constexpr Channel<pose_t> kOdometry{"ODOMETRY"};
+
+/// Where the robot is, only while TRACKING. Frame: map (may jump). Rate: each cloud, and odometry's
+/// rate between. From localiser to whoever drives the robot.
+inline constexpr Channel<pose_t> kPose{"POSE"};
+
+/// The true pose, where a simulator or a data set knows it. Frame: map. Rate: each cloud.
+/// From the scan source to recordings only: no service may use it.
+inline constexpr Channel<pose_t> kTruth{"TRUTH"};
+
+/// What is known of each cloud's pose, and how sure it is. Frame: map. Rate: each cloud.
+/// From localiser to mapper.
+inline constexpr Channel<localisation_t> kLocalisation{"LOCALISATION"};
+
+/// Voxel blocks that changed, in chunks (map_chunks.h). Frame: map. Rate: each cloud; a whole map
+/// on request. From mapper to localiser.
+inline constexpr Channel<map_update_t> kMapUpdate{"MAP_UPDATE"};
+
+/// A cloud that went into the map, with its pose. Frame: base, pose in map. Rate: each added cloud.
+/// From mapper to octomap_export, which needs the rays that voxels no longer have.
+inline constexpr Channel<keyframe_t> kKeyframe{"KEYFRAME"};
+
+/// Asks mapper for a whole map, for keyframes that were missed, or to save. Rate: when needed.
+/// From localiser, octomap_export, scripts to mapper.
+inline constexpr Channel<map_request_t> kMapRequest{"MAP_REQUEST"};
+
+/// The map as an OctoMap. Frame: map. Rate: on change, at most 1 Hz.
+/// From octomap_export to planners.
+inline constexpr Channel<map_octree_t> kOctomap{"OCTOMAP"};
+
+/// Nearest obstacle in each bearing. Frame: base. Rate: each cloud or slice.
+/// From obstacle_detector to planners.
+inline constexpr Channel<obstacles_t> kObstacles{"OBSTACLES"};
+
+/// How a service fares (health.h). Rate: 1 Hz.
+/// From every service to whoever watches.
+inline constexpr Channel<health_t> kHealth{"HEALTH"};
+
+}  // namespace voxlist

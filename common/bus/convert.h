@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "bus/channels.h"
+#include "geometry/cloud.h"
+
+namespace voxlist {
+
+/// Points and poses farther out than this are no measurement. It also keeps voxel coordinates far
+/// from overflow.
+inline constexpr float kMaxPoint_m = 1e4F;
+inline constexpr double kMaxPosition_m = 1e6;
+
+/// What became of a pointcloud_t.
+struct ReceivedCloud {
+  /// Nothing when the message is refused.
+  std::optional<Cloud> cloud;
+
+  /// Why it is refused, as a counter's name; empty when it is not.
+  std::string refusal;
+
+  /// Points left out: not finite, or beyond kMaxPoint_m.
+  std::int64_t dropped_points = 0;
+};
+
+/// A cloud of the map, with its place in the map.
+struct PosedCloud {
+  std::int64_t map_id = 0;
+
+  /// 0 for the map's first.
+  std::int32_t index = 0;
+
+  Pose3 T_map_base = Pose3::Identity();
+
+  /// In base.
+  Cloud cloud;
+};
+
+/// Takes points and, where channels origin_x, origin_y, origin_z are there, ray origins; other
+/// channels are ignored. Refuses "bad_utime", "partial_origins" (one or two of the three),
+/// "repeated_channel", "ragged_arrays".
+ReceivedCloud from_message(const pointcloud_t& message);
+
+/// The pose alone. Nullopt unless it is finite, near enough, its quaternion a unit one and its
+/// utime sane.
+std::optional<StampedPose3> from_message(const pose_t& message);
+
+/// Nullopt unless pose, utime and index are sane and origins are as many as points, or none.
+/// Points as for pointcloud_t.
+std::optional<PosedCloud> from_message(const keyframe_t& message);
+
+/// `seq` counts up by one a message.
+pointcloud_t to_message(const Cloud& cloud, const std::string& frame_id, std::int32_t seq);
+
+/// Velocities and accelerations are 0.
+pose_t to_message(const StampedPose3& pose);
+pose_t to_message(const StampedPose2& pose);
+
+keyframe_t to_message(const PosedCloud& keyframe);
+
+/// Whether times like this can be subtracted from each other without overflow: not negative, not
+/// absurdly late.
+bool is_sane_utime(std::int64_t utime_us);
+
+}  // namespace voxlist

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+namespace voxlist {
+
+/// How often each thing happened, by name ("CLOUD/truncated"), in the names' order.
+using Counters = std::map<std::string, std::int64_t>;
+
+}  // namespace voxlist

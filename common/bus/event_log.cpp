@@ -1,0 +1,176 @@
+#include "bus/event_log.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+
+namespace voxlist {
+namespace {
+
+constexpr std::array<std::uint8_t, 4> kSync = {0xED, 0xA1, 0xDA, 0x01};
+constexpr std::int64_t kSyncBytes = kSync.size();
+// Sync word, event number, timestamp, length of the channel's name, length of the data.
+constexpr std::size_t kHeaderBytes = 4 + 8 + 8 + 4 + 4;
+constexpr std::int64_t kMaxChannelName = 63;
+constexpr std::int64_t kBlockBytes = 65536;
+
+std::uint64_t read_big_endian(Bytes bytes) {
+  std::uint64_t value = 0;
+  for (const std::uint8_t byte : bytes) value = value << 8 | byte;
+  return value;
+}
+
+void append_big_endian(std::uint64_t value, int bytes, std::vector<std::uint8_t>& to) {
+  for (int shift = 8 * (bytes - 1); shift >= 0; shift -= 8) {
+    to.push_back(static_cast<std::uint8_t>(value >> shift));
+  }
+}
+
+std::string system_error(const std::string& doing, const std::string& path) {
+  return "cannot " + doing + ' ' + path + ": " + std::strerror(errno);
+}
+
+}  // namespace
+
+struct EventLogReader::Header {
+  std::int64_t number;
+  std::int64_t utime_us;
+  std::int64_t channel_length;
+  std::int64_t data_length;
+};
+
+EventLogReader::EventLogReader(const std::string& path)
+    : fd_(open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
+  struct stat status {};
+  if (fd_ < 0) throw std::runtime_error(system_error("open log", path));
+  if (fstat(fd_, &status) != 0 || !S_ISREG(status.st_mode)) {
+    close(fd_);
+    throw std::runtime_error("cannot open log " + path + ": not a file");
+  }
+  size_ = status.st_size;
+}
+
+EventLogReader::~EventLogReader() { close(fd_); }
+
+std::optional<Event> EventLogReader::next() {
+  while (position_ < size_) {
+    const std::optional<Header> header = read_header(position_);
+    if (!header) {
+      skip_damage();
+      continue;
+    }
+    Event event{header->number, header->utime_us,
+                std::string(static_cast<std::size_t>(header->channel_length), '\0'),
+                std::vector<std::uint8_t>(static_cast<std::size_t>(header->data_length))};
+    const std::int64_t channel_at = position_ + static_cast<std::int64_t>(kHeaderBytes);
+    const std::int64_t data_at = channel_at + header->channel_length;
+    if (!read(channel_at, event.channel.data(), event.channel.size()) ||
+        !read(data_at, event.bytes.data(), event.bytes.size())) {
+      skip_damage();
+      continue;
+    }
+    position_ = data_at + header->data_length;
+    return event;
+  }
+  return std::nullopt;
+}
+
+// The header at that place, if a whole event stands there.
+std::optional<EventLogReader::Header> EventLogReader::read_header(std::int64_t position) const {
+  std::array<std::uint8_t, kHeaderBytes> bytes;
+  if (!read(position, bytes.data(), bytes.size())) return std::nullopt;
+  if (!std::equal(kSync.begin(), kSync.end(), bytes.begin())) return std::nullopt;
+  const auto field = [&](std::size_t at, std::size_t length) {
+    return read_big_endian(Bytes(bytes).subspan(at, length));
+  };
+  const Header header{
+      static_cast<std::int64_t>(field(4, 8)), static_cast<std::int64_t>(field(12, 8)),
+      static_cast<std::int64_t>(field(20, 4)), static_cast<std::int64_t>(field(24, 4))};
+  const bool sane = header.channel_length >= 1 && header.channel_length <= kMaxChannelName &&
+                    header.data_length <= kMaxMessageBytes;
+  const std::int64_t body = position + static_cast<std::int64_t>(kHeaderBytes);
+  if (!sane || !ends_well(body, body + header.channel_length + header.data_length))
+    return std::nullopt;
+  return header;
+}
+
+// A wrong length shows where the event ends: not at the next event, having run over the next
+// event's start. An event before a damaged one does not end at an event either, but has run over
+// none.
+bool EventLogReader::ends_well(std::int64_t body, std::int64_t end) const {
+  if (end >= size_) return end == size_;
+  return find_sync(end, end + kSyncBytes) == end || find_sync(body, end) == end;
+}
+
+// Where the first whole sync word within [from, limit) starts; limit when there is none.
+std::int64_t EventLogReader::find_sync(std::int64_t from, std::int64_t limit) const {
+  limit = std::min(limit, size_);
+  std::array<std::uint8_t, kBlockBytes> block;
+  for (std::int64_t at = from; at + kSyncBytes <= limit; at += kBlockBytes - kSyncBytes + 1) {
+    const auto end = block.begin() + std::min(kBlockBytes, limit - at);
+    if (!read(at, block.data(), static_cast<std::size_t>(end - block.begin()))) break;
+    const auto found = std::search(block.begin(), end, kSync.begin(), kSync.end());
+    if (found != end) return at + (found - block.begin());
+  }
+  return limit;
+}
+
+void EventLogReader::skip_damage() {
+  const std::int64_t next = find_sync(position_ + 1, size_);
+  ++damaged_;
+  skipped_ += next - position_;
+  position_ = next;
+}
+
+bool EventLogReader::read(std::int64_t position, void* to, std::size_t bytes) const {
+  auto* at = static_cast<char*>(to);
+  while (bytes > 0) {
+    const ssize_t got = pread(fd_, at, bytes, position);
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) return false;
+    at += got;
+    position += got;
+    bytes -= static_cast<std::size_t>(got);
+  }
+  return true;
+}
+
+EventLogWriter::EventLogWriter(std::string path)
+    : path_(std::move(path)), file_(std::fopen(path_.c_str(), "wbe"), &std::fclose) {
+  if (!file_) fail("create log");
+}
+
+void EventLogWriter::write(const std::string& channel, std::int64_t utime_us, Bytes bytes) {
+  if (!file_) throw std::logic_error("log " + path_ + " is closed");
+  std::vector<std::uint8_t> header(kSync.begin(), kSync.end());
+  append_big_endian(static_cast<std::uint64_t>(events_++), 8, header);
+  append_big_endian(static_cast<std::uint64_t>(utime_us), 8, header);
+  append_big_endian(channel.size(), 4, header);
+  append_big_endian(bytes.size(), 4, header);
+  header.insert(header.end(), channel.begin(), channel.end());
+  if (std::fwrite(header.data(), 1, header.size(), file_.get()) != header.size() ||
+      std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size()) {
+    fail("write log");
+  }
+}
+
+void EventLogWriter::close() {
+  if (file_ && std::fclose(file_.release()) != 0) fail("write log");
+}
+
+void EventLogWriter::fail(const char* doing) const {
+  throw std::runtime_error(system_error(doing, path_));
+}
+
+void EventLogWriter::refuse(const std::string& channel, Fault fault) const {
+  throw std::runtime_error("cannot write log " + path_ + ": message on " + channel +
+                           " is wrong: " + fault_name(fault));
+}
+
+}  // namespace voxlist

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <cstdint>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bus/channels.h"
+#include "bus/wire.h"
+
+namespace voxlist {
+
+/// One recorded message.
+struct Event {
+  /// Counts up in the file.
+  std::int64_t number = 0;
+
+  /// When it was recorded, microseconds.
+  std::int64_t utime_us = 0;
+
+  std::string channel;
+  std::vector<std::uint8_t> bytes;
+};
+
+/// Reads an LCM event log (the files of lcm-logger) that may be damaged: every length is checked,
+/// after damage it goes on at the next whole event, and a torn tail is only its end.
+class EventLogReader {
+ public:
+  /// Throws std::runtime_error when the file cannot be opened. An empty file is a log without
+  /// events.
+  explicit EventLogReader(const std::string& path);
+  ~EventLogReader();
+  EventLogReader(const EventLogReader&) = delete;
+  EventLogReader& operator=(const EventLogReader&) = delete;
+
+  /// The next whole event; nullopt at the end of the file (as long as it was when opened).
+  std::optional<Event> next();
+
+  /// How often something was no whole event, the torn tail included.
+  std::int64_t damaged_events() const { return damaged_; }
+
+  /// Their bytes.
+  std::int64_t skipped_bytes() const { return skipped_; }
+
+  /// How far it has come, and the whole, bytes: for progress bars.
+  std::int64_t position_bytes() const { return position_; }
+  std::int64_t size_bytes() const { return size_; }
+
+ private:
+  struct Header;
+
+  bool read(std::int64_t position, void* to, std::size_t bytes) const;
+  std::optional<Header> read_header(std::int64_t position) const;
+  bool ends_well(std::int64_t body, std::int64_t end) const;
+  std::int64_t find_sync(std::int64_t from, std::int64_t limit) const;
+  void skip_damage();
+
+  int fd_;
+  std::int64_t size_ = 0;
+  std::int64_t position_ = 0;
+  std::int64_t damaged_ = 0;
+  std::int64_t skipped_ = 0;
+};
+
+/// Writes an LCM event log that lcm-logplayer and EventLogReader read.
+class EventLogWriter {
+ public:
+  /// Creates or empties the file. Throws std::runtime_error with the path and the system's reason.
+  explicit EventLogWriter(std::string path);
+
+  /// Appends an event. Throws std::runtime_error, e.g. when the disk is full.
+  void write(const std::string& channel, std::int64_t utime_us, Bytes bytes);
+
+  /// Encodes and appends a message. Throws also when its lengths do not fit (check_lengths).
+  template <class M>
+  void write(Channel<M> channel, std::int64_t utime_us, const M& message) {
+    std::vector<std::uint8_t> bytes;
+    if (const Fault fault = encode(message, bytes); fault != Fault::kNone)
+      refuse(channel.name, fault);
+    write(channel.name, utime_us, bytes);
+  }
+
+  /// Writes what is still in memory, and closes. Throws as write() does: without it errors at the
+  /// end go unseen.
+  void close();
+
+ private:
+  [[noreturn]] void fail(const char* doing) const;
+  [[noreturn]] void refuse(const std::string& channel, Fault fault) const;
+
+  std::string path_;
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
+  std::int64_t events_ = 0;
+};
+
+}  // namespace voxlist

@@ -1,0 +1,113 @@
+// check_lengths(): the sender's side of wire.h.
+#include <voxlist/health_t.hpp>
+#include <voxlist/keyframe_t.hpp>
+#include <voxlist/localisation_t.hpp>
+#include <voxlist/map_octree_t.hpp>
+#include <voxlist/map_request_t.hpp>
+#include <voxlist/map_update_t.hpp>
+#include <voxlist/obstacles_t.hpp>
+#include <voxlist/pointcloud_t.hpp>
+#include <voxlist/pose_t.hpp>
+
+#include "bus/wire.h"
+
+namespace voxlist {
+namespace {
+
+// Adds up what the arrays will take, and keeps the first fault.
+class Lengths {
+ public:
+  template <class T>
+  Lengths& array(std::int64_t count, const std::vector<T>& elements, std::int64_t bytes_each) {
+    if (count != std::ssize(elements)) fail(Fault::kBadLength);
+    return add(std::ssize(elements) * bytes_each);
+  }
+
+  Lengths& rows(std::int64_t count, const std::vector<std::vector<float>>& rows,
+                std::int64_t columns) {
+    array(count, rows, columns * 4);
+    for (const auto& row : rows) {
+      if (std::ssize(row) != columns) fail(Fault::kBadLength);
+    }
+    return *this;
+  }
+
+  Lengths& text(const std::string& text) {
+    if (text.find('\0') != std::string::npos) fail(Fault::kBadText);
+    return add(std::ssize(text) + 5);
+  }
+
+  Fault fault() const { return fault_; }
+
+ private:
+  Lengths& add(std::int64_t bytes) {
+    bytes_ += bytes;
+    if (bytes_ > kMaxMessageBytes - kFixedFields) fail(Fault::kTooLarge);
+    return *this;
+  }
+
+  void fail(Fault fault) {
+    if (fault_ == Fault::kNone) fault_ = fault;
+  }
+
+  // More than any type's fields of fixed size.
+  static constexpr std::int64_t kFixedFields = 1000;
+
+  std::int64_t bytes_ = 0;
+  Fault fault_ = Fault::kNone;
+};
+
+}  // namespace
+
+Fault check_lengths(const health_t& message) {
+  Lengths lengths;
+  lengths.text(message.service)
+      .text(message.message)
+      .array(message.n_counters, message.counters, 8);
+  for (const counter_t& counter : message.counters) lengths.text(counter.name);
+  return lengths.fault();
+}
+
+Fault check_lengths(const keyframe_t& message) {
+  return Lengths()
+      .rows(message.n_points, message.points, 3)
+      .rows(message.n_origins, message.origins, 3)
+      .fault();
+}
+
+Fault check_lengths(const localisation_t& message) {
+  return Lengths().array(message.n_modes, message.modes, 104).fault();
+}
+
+Fault check_lengths(const map_octree_t& message) {
+  return Lengths().array(message.num_bytes, message.data, 1).fault();
+}
+
+Fault check_lengths(const map_request_t&) { return Fault::kNone; }
+
+Fault check_lengths(const map_update_t& message) {
+  return Lengths().array(message.n_blocks, message.blocks, 76).fault();
+}
+
+Fault check_lengths(const obstacles_t& message) {
+  return Lengths()
+      .array(message.n_bearings, message.ranges_m, 4)
+      .rows(message.n_cells, message.cells, 2)
+      .array(message.n_cells, message.types, 4)
+      .fault();
+}
+
+Fault check_lengths(const pointcloud_t& message) {
+  if (message.n_channels > kMaxCloudChannels) return Fault::kTooLarge;
+  Lengths lengths;
+  lengths.text(message.frame_id)
+      .rows(message.n_points, message.points, 3)
+      .array(message.n_channels, message.channel_names, 0)
+      .rows(message.n_channels, message.channels, message.n_points);
+  for (const std::string& channel : message.channel_names) lengths.text(channel);
+  return lengths.fault();
+}
+
+Fault check_lengths(const pose_t&) { return Fault::kNone; }
+
+}  // namespace voxlist

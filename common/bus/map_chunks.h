@@ -1,0 +1,101 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <vector>
+#include <voxlist/map_update_t.hpp>
+
+#include "bus/counters.h"
+
+namespace voxlist {
+
+/// base_version of a whole map.
+inline constexpr std::int64_t kWholeMap = -1;
+
+/// Blocks in one message: 60 kB, which fits one UDP packet, so that nothing is lost but whole
+/// chunks.
+inline constexpr std::int32_t kBlocksPerChunk = 780;
+
+/// Chunks of one change: 3.9 million blocks, 300 MB.
+inline constexpr std::int32_t kMaxChunks = 5000;
+
+/// Block coordinates are within +-this: 167 km at 0.02 m, far from overflow as voxels.
+inline constexpr std::int32_t kMaxBlockCoordinate = 1 << 20;
+
+/// What turns one version of the voxel map into another: the new contents of the blocks that
+/// changed (all zero bits: the block is empty now), or the whole map, or nothing but a newer time.
+struct MapChange {
+  /// Time of the newest cloud that the mapper has decided on, microseconds.
+  std::int64_t utime_us = 0;
+  std::int64_t map_id = 0;
+  /// Keyframes in the map after the change.
+  std::int64_t version = 0;
+  /// Version before it; kWholeMap: replaces whatever was; `version`: nothing changed, `blocks` is
+  /// empty.
+  std::int64_t base_version = kWholeMap;
+  /// Voxel edge.
+  double resolution_m = 0.0;
+  std::vector<voxel_block_t> blocks;
+
+  bool is_whole() const { return base_version == kWholeMap; }
+};
+
+/// The change as messages for MAP_UPDATE, at least one. Blocks are put in a fixed order, so that
+/// chunks of two sendings of one change fit together. Throws std::length_error above kMaxChunks.
+std::vector<map_update_t> split_map(MapChange change);
+
+/// Puts chunks together again, whatever their order, with duplicates and losses, in bounded memory.
+/// What it hands out always builds on what it handed out before.
+class MapAssembler {
+ public:
+  /// Takes a chunk. Returns the changes that are now complete and fit, to be applied in this order:
+  /// mostly none or one.
+  std::vector<MapChange> add(const map_update_t& message);
+
+  /// Whether only a whole map can help: none held yet, a version was missed, or a chunk of the
+  /// newest one never came and a later message shows it. Ask (MAP_REQUEST, WANT_MAP) at most once a
+  /// second while true: an answer takes time.
+  bool needs_request() const;
+
+  /// What the last change handed out led to; nothing before the first.
+  struct Held {
+    std::int64_t utime_us;
+    std::int64_t map_id;
+    std::int64_t version;
+    double resolution_m;
+  };
+  const std::optional<Held>& held() const { return held_; }
+
+  /// "bad_chunk" (makes no sense), "stale" (older than what is held, or a repetition of it),
+  /// "duplicate", "abandoned" (changes given up before they were complete or fitted).
+  const Counters& counters() const { return counters_; }
+
+ private:
+  // A change of which chunks are still missing, or that builds on a version not held yet.
+  struct Assembly {
+    MapChange change;
+    std::vector<std::optional<std::vector<voxel_block_t>>> chunks;
+    std::int32_t missing;
+  };
+
+  bool is_stale(const MapChange& change) const;
+  bool builds_on_held(const MapChange& change) const;
+  Assembly* assembly_of(const map_update_t& message);
+  void put(const map_update_t& message, Assembly& assembly);
+  std::vector<MapChange> take_ready();
+  MapChange take(std::deque<Assembly>::iterator ready);
+  void abandon(std::deque<Assembly>::iterator assembly);
+  void abandon_useless();
+  void bound_memory();
+
+  std::optional<Held> held_;
+  // Header of the newest message, without blocks.
+  std::optional<MapChange> newest_;
+  // Oldest first.
+  std::deque<Assembly> assemblies_;
+  std::size_t pending_blocks_ = 0;
+  Counters counters_;
+};
+
+}  // namespace voxlist

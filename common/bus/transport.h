@@ -1,0 +1,51 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bus/wire.h"
+
+namespace voxlist {
+
+struct BusOptions;
+
+/// A message as it came, nothing checked. Valid during the call that hands it over.
+struct RawMessage {
+  std::string channel;
+  Bytes bytes;
+  std::int64_t arrival_utime_us = 0;
+};
+
+/// Moves bytes for Bus. Channel names have the prefix already.
+class Transport {
+ public:
+  enum class Received { kMessage, kNothing, kEnded };
+  using Receiver = std::function<void(const RawMessage&)>;
+
+  virtual ~Transport() = default;
+
+  /// Wants messages of this channel; up to `capacity` wait for receive(), then the newest are
+  /// dropped.
+  virtual void listen(const std::string& channel, int capacity) = 0;
+
+  /// False: it could not be sent.
+  virtual bool send(const std::string& channel, Bytes bytes) = 0;
+
+  /// Hands one message to `receiver`, waiting for it up to `timeout`.
+  virtual Received receive(std::chrono::milliseconds timeout, const Receiver& receiver) = 0;
+
+  /// How many messages one Bus::handle() may take.
+  virtual int batch() const = 0;
+};
+
+/// The network, or memq. Adds to `warnings`; throws std::runtime_error when it cannot connect.
+std::unique_ptr<Transport> open_lcm(const BusOptions& options, std::vector<std::string>& warnings);
+
+/// A recording, as fast as it is asked for. Throws std::runtime_error when it cannot be read.
+std::unique_ptr<Transport> open_log(const std::string& path);
+
+}  // namespace voxlist
