@@ -10,14 +10,28 @@ namespace voxlist {
 
 /// What counts as an obstacle.
 struct ObstacleConfig {
-  int sectors = 360;          ///< bearings, evenly round the robot
-  double floor_z_m = 0.0;     ///< height of the floor in the cloud's frame: 0 in base
-  double min_height_m = 0.1;  ///< above the floor: what the wheels get over, and the floor's noise
-  double max_height_m = 1.0;  ///< above the floor: the robot's height
-  double min_range_m = 0.3;   ///< horizontal: nearer points are the robot itself
-  double max_range_m = 10.0;  ///< horizontal
-  double cell_m = 0.1;        ///< of the grid that points support each other on
-  int min_points = 2;         ///< an obstacle has this many in its cell and the eight round it
+  int sectors = 360;
+  double floor_z_m = 0.0;
+  double min_height_m = 0.1;
+  double max_height_m = 1.0;
+  double min_range_m = 0.3;
+  double max_range_m = 10.0;
+  double cell_m = 0.1;
+  int min_points = 2;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v("sectors", sectors, "bearings, evenly round the robot", 1, 36'000);
+    v("floor_z_m", floor_z_m, "height of the floor in the cloud's frame: 0 in base", -100.0, 100.0);
+    v("min_height_m", min_height_m, "above the floor: what the wheels get over, and noise", 0.0,
+      100.0);
+    v("max_height_m", max_height_m, "above the floor: the robot's height", 0.0, 100.0);
+    v("min_range_m", min_range_m, "horizontal: nearer points are the robot itself", 0.0, 100.0);
+    v("max_range_m", max_range_m, "horizontal", 0.0, 1000.0);
+    v("cell_m", cell_m, "edge of the grid's cells", 0.01, 10.0);
+    v("min_points", min_points, "an obstacle has this many in its cell and the eight round it", 1,
+      1000);
+  }
 };
 
 /// The nearest obstacle in each bearing, in the cloud's frame.

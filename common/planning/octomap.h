@@ -14,11 +14,20 @@ namespace voxlist {
 
 /// What an OctoMap is made with. The probabilities are OctoMap's own defaults.
 struct OctomapConfig {
-  double resolution_m = 0.1;  ///< edge of the smallest voxel
-  double max_range_m =
-      -1.0;  ///< longer rays only free this much of their way, and hit nothing; negative: no limit
-  double hit_probability = 0.7;   ///< of a voxel after one hit: above 0.5
-  double miss_probability = 0.4;  ///< of a voxel after one pass: below 0.5
+  double resolution_m = 0.1;
+  double max_range_m = -1.0;
+  double hit_probability = 0.7;
+  double miss_probability = 0.4;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v("resolution_m", resolution_m, "edge of the smallest voxel", 0.01, 10.0);
+    v("max_range_m", max_range_m,
+      "longer rays only free this much of their way, and hit nothing; negative: no limit", -1.0,
+      1000.0);
+    v("hit_probability", hit_probability, "that a voxel is occupied, after one hit", 0.51, 0.99);
+    v("miss_probability", miss_probability, "that a voxel is occupied, after one pass", 0.01, 0.49);
+  }
 };
 
 /// What an OctoMap knows of a place.

@@ -40,7 +40,7 @@ class Builder {
  public:
   explicit Builder(const BuildingConfig& config)
       : config_(config),
-        random_(config.seed),
+        random_(static_cast<std::uint64_t>(config.seed)),
         low_(-kBehindStart, -config.depth_m / 2.0),
         high_(config.length_m - kBehindStart, config.depth_m / 2.0) {}
 

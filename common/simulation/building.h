@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstdint>
 #include <vector>
 
 #include "simulation/box_tree.h"
@@ -17,7 +16,7 @@ struct BuildingConfig {
   double corridor_width_m = 2.2;
   int rooms = 6;                ///< alternately left and right of the corridor
   int furniture_per_room = 12;  ///< tried for; what would block the way is left out
-  std::uint64_t seed = 1;
+  int seed = 1;
 };
 
 /// A room off the corridor: its free rectangle, and the middle of its doorway.

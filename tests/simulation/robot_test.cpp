@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 
-Building building(std::uint64_t seed) {
+Building building(int seed) {
   BuildingConfig config;
   config.seed = seed;
   return make_building(config);
@@ -25,7 +25,7 @@ Trajectory tour(const Building& building) { return drive(plan_tour(building, {})
 Trajectory straight() { return drive({{0.0, 0.0}, {5.0, 0.0}, {10.0, 0.0}}, {}); }
 
 TEST(Robot, VisitsEveryRoomAndEndsWhereItStarted) {
-  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+  for (int seed = 1; seed <= 10; ++seed) {
     SCOPED_TRACE(seed);
     const Building world = building(seed);
     const Trajectory trajectory = tour(world);
@@ -41,7 +41,7 @@ TEST(Robot, VisitsEveryRoomAndEndsWhereItStarted) {
 }
 
 TEST(Robot, NeverTouchesABox) {
-  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+  for (int seed = 1; seed <= 10; ++seed) {
     SCOPED_TRACE(seed);
     const Building world = building(seed);
     const Trajectory trajectory = tour(world);

@@ -42,7 +42,7 @@ Recording record(const SimulationConfig& config) {
 TEST(SimulatedRun, YieldsEveryEventOfItsDurationInTheOrderOfTime) {
   const Recording run = record(five_seconds());
   EXPECT_EQ(run.odometry.size(), 251u);
-  EXPECT_EQ(run.truth.size(), 251u);
+  EXPECT_EQ(run.truth.size(), 5u);
   ASSERT_EQ(run.clouds.size(), 5u);
   EXPECT_EQ(run.clouds.front().utime_us, 1'000'000);
   EXPECT_EQ(run.clouds.back().utime_us, 5'000'000);
@@ -63,10 +63,9 @@ TEST(SimulatedRun, TellsTheMotionOfASweepBeforeTheSweep) {
   }
 }
 
-TEST(SimulatedRun, StartsAtTheIdentityOfBothFrames) {
+TEST(SimulatedRun, StartsAtTheIdentityAndGoesSomewhere) {
   const Recording run = record(five_seconds());
   EXPECT_EQ(run.odometry.front().pose, Pose2{});
-  EXPECT_EQ(run.truth.front().pose, Pose2{});
   EXPECT_GT(distance_m(run.truth.back().pose, {}), 0.5);
 }
 
