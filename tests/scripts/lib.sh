@@ -3,6 +3,7 @@
 
 scripts=$(cd "$(dirname "${BASH_SOURCE[0]}")/../../scripts" && pwd)
 work=$(mktemp -d /tmp/voxlist_test.XXXXXX)
+export VOXLIST_RUN_DIR=$work/run
 trap 'rm -rf "$work"' EXIT
 
 skip() {
@@ -25,9 +26,11 @@ check() {
 
 # says PATTERN COMMAND...: what the command writes must match, whatever its exit code.
 says() {
-  local pattern=$1
+  local pattern=$1 output
   shift
-  ("$@" || true) 2>&1 | tee /dev/stderr | grep -Eq -- "$pattern"
+  output=$("$@" 2>&1) || true
+  echo "$output"
+  grep -Eq -- "$pattern" <<<"$output"
 }
 
 # fails COMMAND...: it must not succeed.
