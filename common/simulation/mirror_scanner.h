@@ -28,7 +28,7 @@ struct MirrorScannerConfig {
 /// The sweep that ends at `t_end_s`: each beam is cast from where the robot truly is when it
 /// leaves, then all are brought into base at the sweep's end by `measured`, the motion that the
 /// robot believes in (the truth itself: a perfect de-skew). Origins are the points on the mirror's
-/// axis. About 5000 points. The noise depends on the seed and on nothing else that was asked for
+/// axis. About 5600 points. The noise depends on the seed and on nothing else that was asked for
 /// before.
 Cloud scan_sweep(const Building& building, const Trajectory& truth, const Trajectory& measured,
                  double t_end_s, const MirrorScannerConfig& config, std::uint64_t seed);

@@ -14,9 +14,8 @@ struct DriveConfig {
   double acceleration_max_mps2 = 0.5;
   double turn_rate_max_dps = 45.0;
   double turn_acceleration_max_dps2 = 90.0;
-  double lookahead_m =
-      0.35;  ///< it steers for the path's point this far ahead: more is smoother, and cuts corners
-  double period_s = 0.01;  ///< of the motion's steps
+  double lookahead_m = 0.35;  ///< it steers for the path's point this far ahead: more cuts corners
+  double period_s = 0.01;     ///< of the motion's steps
 };
 
 /// Errors of the wheels' measure. Scales are drawn once for a seed, noise grows with the root of
