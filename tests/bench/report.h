@@ -1,0 +1,42 @@
+#pragma once
+
+#include <benchmark/benchmark.h>
+
+#include <string>
+#include <vector>
+
+namespace voxlist {
+
+/// One measured number.
+struct Measure {
+  std::string benchmark;
+  std::string name;
+  double value = 0.0;
+};
+
+/// Shows results on the terminal as Google Benchmark does, and keeps them for ratios and the CSV
+/// file.
+class Report : public benchmark::ConsoleReporter {
+ public:
+  void ReportRuns(const std::vector<Run>& runs) override;
+
+  /// Prints a's number over b's, both from this run, and keeps it as a measure of its own. Nothing
+  /// when one of the two was not run.
+  void ratio(const std::string& a, const std::string& b, const std::string& name);
+
+  /// Appends all measures as rows program,scene,benchmark,measure,value,machine,commit. Throws
+  /// std::runtime_error.
+  void append_csv(const std::string& file, const std::string& program,
+                  const std::string& scene) const;
+
+ private:
+  const Measure* find(const std::string& benchmark, const std::string& name) const;
+
+  std::vector<Measure> measures_;
+};
+
+/// The main of a benchmark program: Google Benchmark's options and --csv FILE, then `add` registers
+/// the benchmarks, they run, and `compare` prints ratios. Returns the exit code.
+int run_benchmarks(int argc, char** argv, void (*add)(), void (*compare)(Report&));
+
+}  // namespace voxlist
