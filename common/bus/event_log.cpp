@@ -18,7 +18,8 @@ constexpr std::int64_t kSyncBytes = kSync.size();
 // Sync word, event number, timestamp, length of the channel's name, length of the data.
 constexpr std::size_t kHeaderBytes = 4 + 8 + 8 + 4 + 4;
 constexpr std::int64_t kMaxChannelName = 63;
-constexpr std::int64_t kBlockBytes = 65536;
+// Small: damage is mostly short, and each step reads a block.
+constexpr std::int64_t kBlockBytes = 4096;
 
 std::uint64_t read_big_endian(Bytes bytes) {
   std::uint64_t value = 0;
