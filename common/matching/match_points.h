@@ -13,8 +13,10 @@ struct MatchPointsConfig {
   double max_range_m = 60.0;
   /// One point is kept of each cube of this edge (m), so that near surfaces do not outvote far ones.
   double spacing_m = 0.2;
-  /// Most points kept; above it they are thinned evenly.
+  /// Most points kept; above it the fullest layers are thinned.
   int max_points = 2000;
+  /// Edge of the cubes in which the scan is tested for flat-lying surfaces (m).
+  double flat_cube_m = 0.4;
 };
 
 /// Points of a scan chosen for matching, in base, in a fixed order that does not depend on the order of the scan.
@@ -24,9 +26,10 @@ struct MatchPoints {
   double radius_m = 0.0;
 };
 
-/// Thins a scan for matching. Horizontal layers that are mostly full (floor, ceiling) match wherever the robot is, so
-/// no layer of one spacing's height keeps more points than `max_points` spread over the layers evenly would give the
-/// full ones. Empty when the scan has no point within range.
+/// Chooses the points of a scan that tell poses (x, y, yaw) apart. Points of surfaces that lie flat (floor, ceiling,
+/// table tops) match wherever the robot is: they are left out, unless nothing else would remain. What remains is thinned
+/// to one point a cube, and layers of one spacing's height are capped alike until `max_points` hold all. Empty when the scan has
+/// no point within range.
 MatchPoints choose_match_points(std::span<const Eigen::Vector3f> points, const MatchPointsConfig& config);
 
 }  // namespace voxlist

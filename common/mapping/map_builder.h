@@ -1,0 +1,57 @@
+#pragma once
+
+#include <vector>
+
+#include "geometry/cloud.h"
+#include "matching/localisation.h"
+#include "voxels/voxel_map.h"
+
+namespace voxlist {
+
+/// A cloud with its place in the map: what maps are made of.
+struct Keyframe {
+  Pose3 T_map_base = Pose3::Identity();
+  /// In base.
+  Cloud cloud;
+};
+
+struct MapBuilderConfig {
+  /// A cloud is added after this much motion since the nearest keyframe in time (m, or degrees).
+  double min_distance_m = 0.3;
+  double min_turn_deg = 12.0;
+  /// Points farther from the sensor than this are left out (m).
+  double max_range_m = 100.0;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v("min_distance_m", min_distance_m, "motion after which a cloud is added to the map", 0.0, 100.0);
+    v("min_turn_deg", min_turn_deg, "turn after which a cloud is added to the map", 0.0, 180.0);
+    v("max_range_m", max_range_m, "points farther away than this stay out of the map", 0.5, 1000.0);
+  }
+};
+
+/// Builds the voxel map from clouds whose pose is known. Keyframes are the truth, the voxel map is a view of them.
+class MapBuilder {
+ public:
+  explicit MapBuilder(const MapBuilderConfig& config = {}) : config_(config) {}
+
+  /// Whether a cloud with this localisation belongs into the map: tracked, and moved enough since the last keyframe.
+  bool wants(const Localisation& localisation) const;
+
+  /// Puts a keyframe into the map, whatever wants() says.
+  void add(Keyframe keyframe);
+
+  const VoxelMap& map() const { return map_; }
+  const std::vector<Keyframe>& keyframes() const { return keyframes_; }
+
+  /// Indices (into map()) of the blocks that the last add() changed, each once, ascending.
+  const std::vector<std::size_t>& changed_blocks() const { return changed_blocks_; }
+
+ private:
+  const MapBuilderConfig config_;
+  VoxelMap map_;
+  std::vector<Keyframe> keyframes_;
+  std::vector<std::size_t> changed_blocks_;
+};
+
+}  // namespace voxlist

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "geometry/cloud.h"
+#include "matching/localisation.h"
+#include "matching/matcher.h"
+#include "voxels/voxel_map.h"
+
+namespace voxlist {
+
+struct LocaliserConfig {
+  MatcherConfig matcher;
+  /// Without odometry: the fastest that the robot moves and turns.
+  double max_speed_mps = 2.0;
+  double max_turn_rate_dps = 120.0;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v("max_speed_mps", max_speed_mps, "fastest motion to expect without odometry", 0.01, 50.0);
+    v("max_turn_rate_dps", max_turn_rate_dps, "fastest turn to expect without odometry", 1.0, 720.0);
+    matcher.visit(v);
+  }
+};
+
+/// Finds each cloud's pose in a map: tracks from the last pose and the motion since, searches the whole map when it is
+/// lost. Time is the clouds' own. Use from one thread.
+class Localiser {
+ public:
+  /// The map must outlive the localiser; call map_changed() after each change of it.
+  Localiser(const VoxelMap& map, const LocaliserConfig& config = {});
+  ~Localiser();
+
+  /// The map has other voxels now. The next cloud pays for making it ready (tens of milliseconds).
+  void map_changed();
+
+  /// Locates a cloud (in base). `T_odom_base`: odometry's pose at the cloud's time, if there is odometry.
+  /// In an empty map the cloud defines the map frame: TRACKING at the identity.
+  Localisation localise(const Cloud& cloud, const std::optional<Pose2>& T_odom_base = std::nullopt);
+
+  /// Locates a cloud by itself, without a guess and without memory.
+  Localisation locate(const Cloud& cloud);
+
+  /// Forgets where the robot was: the next cloud is searched for in the whole map.
+  void forget();
+
+ private:
+  struct Track;
+  Matcher& matcher();
+
+  const VoxelMap& map_;
+  const LocaliserConfig config_;
+  std::unique_ptr<Matcher> matcher_;
+  std::unique_ptr<Track> track_;
+};
+
+}  // namespace voxlist
