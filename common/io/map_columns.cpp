@@ -1,6 +1,7 @@
 #include "io/map_columns.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <tuple>
@@ -51,7 +52,7 @@ float floor_height(const Voxels& voxels) {
 }
 
 std::pair<int, int> block_of(const Voxel& voxel, double cell_m) {
-  const double cells_per_block = std::max(1.0, kLevelM / cell_m);
+  const double cells_per_block = std::max(1.0, std::round(kLevelM / cell_m));
   const Eigen::Vector2d block = (voxel.cell.cast<double>() / cells_per_block).array().floor();
   return {static_cast<int>(block.x()), static_cast<int>(block.y())};
 }

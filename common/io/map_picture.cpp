@@ -19,7 +19,7 @@ constexpr Rgb kPath{255, 92, 72};
 constexpr Rgb kStart{255, 255, 255};
 constexpr double kMapPixels = 1480.0;
 constexpr int kMargin = 40;
-constexpr int kFooter = 70;
+constexpr int kFooter = 84;
 constexpr int kWidth = static_cast<int>(kMapPixels) + 2 * kMargin;
 constexpr double kTextSize = 15.0;
 
@@ -181,14 +181,16 @@ void draw_mark(Picture& picture, double x, double y, Rgb colour, const char* nam
   picture.text({x + 14.0, y + kTextSize / 2.0}, name, kTextSize, kInk);
 }
 
-void draw_axes(Picture& picture, const Layout& layout, double x, double y) {
-  constexpr double kLength = 34.0;
+void draw_axes(Picture& picture, const Layout& layout, const Vector2d& centre) {
+  constexpr double kLength = 30.0;
   const Vector2d zero = layout.pixel(Vector2d::Zero());
-  for (const auto& [axis, name] : {std::pair(Vector2d(1.0, 0.0), "x"), {Vector2d(0.0, 1.0), "y"}}) {
-    const Vector2d along = (layout.pixel(axis) - zero).normalized();
-    const Vector2d tip = Vector2d(x, y) + kLength * along;
-    picture.line({x, y}, tip, 2.0, kInk);
-    picture.text(tip + 12.0 * along + Vector2d(0.0, kTextSize / 3.0), name, kTextSize, kInk,
+  const Vector2d x = (layout.pixel(Vector2d::UnitX()) - zero).normalized();
+  const Vector2d y = (layout.pixel(Vector2d::UnitY()) - zero).normalized();
+  const Vector2d origin = centre - 0.5 * kLength * (x + y);
+  for (const auto& [along, name] : {std::pair(x, "x"), std::pair(y, "y")}) {
+    const Vector2d tip = origin + kLength * along;
+    picture.line(origin, tip, 2.0, kInk);
+    picture.text(tip + 12.0 * along + Vector2d(0.0, kTextSize / 4.0), name, kTextSize, kInk,
                  TextAnchor::kCentre);
   }
 }
@@ -219,7 +221,7 @@ Picture draw_map(const std::vector<Eigen::Vector3f>& points, const std::vector<P
   draw_path(picture, layout, path);
   const int y = picture.height() - kFooter / 2;
   draw_scale_bar(picture, layout, kMargin, y);
-  draw_axes(picture, layout, 0.24 * kWidth, y + kTextSize);
+  draw_axes(picture, layout, {0.25 * kWidth, static_cast<double>(y)});
   draw_height_legend(picture, heights, picture.width() - kMargin, y);
   if (!path.empty()) {
     draw_mark(picture, 0.42 * kWidth, y, kStart, "start");

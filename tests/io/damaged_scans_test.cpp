@@ -1,0 +1,47 @@
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "io/cloud_file.h"
+#include "io/damage.h"
+#include "io/scan_files.h"
+
+namespace voxlist {
+namespace {
+
+TEST(DamagedScans, AreReadOrRefusedAndAllCounted) {
+  constexpr int kFiles = 10'000;
+  constexpr std::uint64_t kSeed = 20240229;
+  RecordProperty("seed", std::to_string(kSeed));
+  const test::TemporaryFolder folder;
+  const auto samples = test::scan_samples();
+  test::Damage damage(kSeed);
+  std::map<std::string, int> read, refused;
+  for (std::size_t i = 0; i < kFiles; ++i) {
+    const auto& sample = samples[i % samples.size()];
+    const auto path = folder.write("scan" + sample.extension, damage(sample.bytes));
+    const std::string kind = sample.extension + " " + sample.encoding;
+    try {
+      const Cloud cloud = read_cloud_file(path);
+      ++read[kind];
+      EXPECT_LE(cloud.points.size(), std::filesystem::file_size(path) * 88)
+          << "seed " << kSeed << ", file " << i;
+      for (const auto& point : cloud.points) {
+        ASSERT_TRUE(point.allFinite()) << "seed " << kSeed << ", file " << i;
+      }
+    } catch (const FileError&) {
+      ++refused[kind];
+    }
+  }
+  int all = 0;
+  for (const auto& sample : samples) {
+    const std::string kind = sample.extension + " " + sample.encoding;
+    EXPECT_GT(read[kind], 50) << kind;
+    EXPECT_GT(refused[kind], 50) << kind;
+    all += read[kind] + refused[kind];
+  }
+  EXPECT_EQ(all, kFiles);
+}
+
+}  // namespace
+}  // namespace voxlist
