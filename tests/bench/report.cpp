@@ -1,5 +1,7 @@
 #include "bench/report.h"
 
+#include <unistd.h>
+
 #include <array>
 #include <cstdio>
 #include <filesystem>
@@ -51,10 +53,12 @@ std::optional<std::string> take_csv_option(int& argc, char** argv) {
 
 }  // namespace
 
+Report::Report() : ConsoleReporter(isatty(STDOUT_FILENO) ? OO_Defaults : OO_Tabular) {}
+
 void Report::ReportRuns(const std::vector<Run>& runs) {
   ConsoleReporter::ReportRuns(runs);
   for (const Run& run : runs) {
-    const std::string name = run.benchmark_name();
+    const std::string name = run.run_name.function_name;
     measures_.push_back(
         {name, "seconds", run.real_accumulated_time / static_cast<double>(run.iterations)});
     for (const auto& [counter, value] : run.counters)
@@ -63,11 +67,16 @@ void Report::ReportRuns(const std::vector<Run>& runs) {
 }
 
 void Report::ratio(const std::string& a, const std::string& b, const std::string& name) {
-  const Measure *above = find(a, name), *below = find(b, name);
-  if (!above || !below) return;
-  std::printf("%s: %s / %s = %.3g\n", name.c_str(), a.c_str(), b.c_str(),
-              above->value / below->value);
-  measures_.push_back({a + " over " + b, name, above->value / below->value});
+  if (const Measure* below = find(b, name)) ratio_to(below->value, b, a, name);
+}
+
+void Report::ratio_to(double reference, const std::string& source, const std::string& benchmark,
+                      const std::string& name) {
+  const Measure* measure = find(benchmark, name);
+  if (!measure) return;
+  const double value = measure->value / reference;
+  std::printf("%s: %s / %s = %.3g\n", name.c_str(), benchmark.c_str(), source.c_str(), value);
+  measures_.push_back({benchmark + " over " + source, name, value});
 }
 
 void Report::append_csv(const std::string& file, const std::string& program,

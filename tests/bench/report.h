@@ -18,11 +18,18 @@ struct Measure {
 /// file.
 class Report : public benchmark::ConsoleReporter {
  public:
+  /// Colours only on a terminal.
+  Report();
+
   void ReportRuns(const std::vector<Run>& runs) override;
 
   /// Prints a's number over b's, both from this run, and keeps it as a measure of its own. Nothing
   /// when one of the two was not run.
   void ratio(const std::string& a, const std::string& b, const std::string& name);
+
+  /// The same against a number from elsewhere, which `source` names.
+  void ratio_to(double reference, const std::string& source, const std::string& benchmark,
+                const std::string& name);
 
   /// Appends all measures as rows program,scene,benchmark,measure,value,machine,commit. Throws
   /// std::runtime_error.

@@ -249,11 +249,10 @@ TEST(ParticleFilter, DoesNotDependOnTheOrderOfThePoints) {
 TEST(ParticleFilter, SaysWhenItDroppedParticles) {
   const SyntheticRoom room = small_room();
   const PoseWindow window{room.truth, 0.5, 0.5, 0.3};
-  const auto bounded =
-      ParticleFilter(room.map, {.max_particles = 2000}).localise(room.scan, window);
+  const auto bounded = ParticleFilter(room.map, {.max_particles = 100}).localise(room.scan, window);
   EXPECT_TRUE(bounded.truncated);
   EXPECT_FALSE(bounded.particles.empty());
-  for (const auto& level : bounded.levels) EXPECT_LE(level.particles, 2000u);
+  for (const auto& level : bounded.levels) EXPECT_LE(level.particles, 100u);
   EXPECT_FALSE(ParticleFilter(room.map).localise(room.scan, window).truncated);
 }
 
