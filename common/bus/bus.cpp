@@ -90,9 +90,11 @@ struct Bus::Impl {
     if (found == subscriptions.end()) return;
     Subscription& to = found->second;
     count(to.channel, "received");
-    if (to.delivery == Delivery::kEvery)
-      return deliver(to, message.bytes, message.arrival_utime_us);
-    keep(to, message);
+    if (to.delivery == Delivery::kEvery) {
+      deliver(to, message.bytes, message.arrival_utime_us);
+    } else {
+      keep(to, message);
+    }
   }
 
   void deliver_waiting() {

@@ -40,6 +40,9 @@ enum class Delivery {
 /// bytes are checked before they are decoded, and what is refused is counted by reason. Use one Bus
 /// from one thread.
 ///
+/// One gap is not ours to close: a forged fragment of a large message can crash liblcm's own
+/// reassembly, so the network is to be trusted with packets, if not with messages.
+///
 /// counters(), where CH is the channel without prefix: CH/received = CH/handled + CH/handler_failed
 /// + CH/superseded
 /// + the sum of CH/<fault_name>, once handle() has returned. CH/sent, CH/unsent_<reason> for

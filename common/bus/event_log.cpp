@@ -96,9 +96,8 @@ std::optional<EventLogReader::Header> EventLogReader::read_header(std::int64_t p
   const bool sane = header.channel_length >= 1 && header.channel_length <= kMaxChannelName &&
                     header.data_length <= kMaxMessageBytes;
   const std::int64_t body = position + static_cast<std::int64_t>(kHeaderBytes);
-  if (!sane || !ends_well(body, body + header.channel_length + header.data_length))
-    return std::nullopt;
-  return header;
+  const std::int64_t end = body + header.channel_length + header.data_length;
+  return sane && ends_well(body, end) ? std::optional(header) : std::nullopt;
 }
 
 // A wrong length shows where the event ends: not at the next event, having run over the next

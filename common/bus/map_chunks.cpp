@@ -170,7 +170,7 @@ std::vector<MapChange> MapAssembler::take_ready() {
   return changes;
 }
 
-MapChange MapAssembler::take(std::deque<Assembly>::iterator ready) {
+MapChange MapAssembler::take(std::list<Assembly>::iterator ready) {
   MapChange change = std::move(ready->change);
   for (const auto& chunk : ready->chunks) {
     change.blocks.insert(change.blocks.end(), chunk->begin(), chunk->end());
@@ -181,7 +181,7 @@ MapChange MapAssembler::take(std::deque<Assembly>::iterator ready) {
   return change;
 }
 
-void MapAssembler::abandon(std::deque<Assembly>::iterator assembly) {
+void MapAssembler::abandon(std::list<Assembly>::iterator assembly) {
   for (const auto& chunk : assembly->chunks) {
     if (chunk) pending_blocks_ -= chunk->size();
   }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
+#include <list>
 #include <optional>
 #include <vector>
 #include <voxlist/map_update_t.hpp>
@@ -84,8 +84,8 @@ class MapAssembler {
   Assembly* assembly_of(const map_update_t& message);
   void put(const map_update_t& message, Assembly& assembly);
   std::vector<MapChange> take_ready();
-  MapChange take(std::deque<Assembly>::iterator ready);
-  void abandon(std::deque<Assembly>::iterator assembly);
+  MapChange take(std::list<Assembly>::iterator ready);
+  void abandon(std::list<Assembly>::iterator assembly);
   void abandon_useless();
   void bound_memory();
 
@@ -93,7 +93,7 @@ class MapAssembler {
   // Header of the newest message, without blocks.
   std::optional<MapChange> newest_;
   // Oldest first.
-  std::deque<Assembly> assemblies_;
+  std::list<Assembly> assemblies_;
   std::size_t pending_blocks_ = 0;
   Counters counters_;
 };
