@@ -17,7 +17,7 @@ constexpr Rgb kBackground{14, 17, 23};
 constexpr Rgb kInk{226, 230, 236};
 constexpr Rgb kPath{255, 92, 72};
 constexpr Rgb kStart{255, 255, 255};
-constexpr double kMapPixels = 1480.0;
+constexpr double kMapPixels = 1460.0;
 constexpr int kMargin = 40;
 constexpr int kFooter = 84;
 constexpr int kWidth = static_cast<int>(kMapPixels) + 2 * kMargin;

@@ -18,8 +18,9 @@ namespace voxlist {
 /// - Colour is the height of the highest voxel that is left (viridis); brightness is how many
 /// voxels lie above each
 ///   other: walls are bright, floors dim.
-/// The picture is 1560 pixels wide; the map's longer side lies across, and axes at the bottom tell
-/// which way it was turned. The outermost thousandth of the points on each side is cut off.
+/// The picture is 1540 pixels wide and at most 1600 high; the map's longer side lies across, and
+/// axes at the bottom tell which way it was turned. The outermost thousandth of the points on each
+/// side is cut off.
 Picture draw_map(const std::vector<Eigen::Vector3f>& points, const std::vector<Pose2>& path,
                  double resolution_m);
 

@@ -193,7 +193,7 @@ std::optional<Eigen::Quaterniond> unit_quaternion(double w, double x, double y, 
 }
 
 std::optional<std::int64_t> number_in_name(const std::filesystem::path& file) {
-  constexpr std::size_t kMaxDigits = 18;
+  constexpr std::size_t kMaxDigits = 9;
   const std::string stem = file.stem().string();
   const std::size_t last = stem.find_last_of("0123456789");
   if (last == std::string::npos) {

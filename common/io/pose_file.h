@@ -56,7 +56,8 @@ PoseTable read_odometry_csv(const std::filesystem::path& path);
 /// A unit quaternion from components that are within 1 % of unit length; otherwise nothing.
 std::optional<Eigen::Quaterniond> unit_quaternion(double w, double x, double y, double z);
 
-/// The last run of digits in a file's name (without folder and extension).
+/// The last run of digits in a file's name (without folder and extension); nothing when there is
+/// none or it is longer than 9 digits (a time, not a number of a scan).
 std::optional<std::int64_t> number_in_name(const std::filesystem::path& file);
 
 }  // namespace voxlist

@@ -132,7 +132,7 @@ TEST(MapColumns, LeaveTheCeilingOutAndKeepTheWall) {
 
 TEST(MapPicture, PutsTheLongSideAcrossAndWallsInBright) {
   const Picture lying = draw_map(room(), {{1.0, 1.0, 0.0}, {5.0, 3.0, 0.0}}, 0.1);
-  EXPECT_EQ(lying.width(), 1560);
+  EXPECT_EQ(lying.width(), 1540);
   EXPECT_LT(lying.height(), lying.width());
   auto turned_room = room();
   for (auto& p : turned_room) {
@@ -145,8 +145,8 @@ TEST(MapPicture, PutsTheLongSideAcrossAndWallsInBright) {
 }
 
 TEST(MapPicture, DrawsEvenAnEmptyMap) {
-  EXPECT_EQ(draw_map({}, {}, 0.05).width(), 1560);
-  EXPECT_EQ(draw_map({{1.0F, 1.0F, 1.0F}}, {}, 0.05).width(), 1560);
+  EXPECT_EQ(draw_map({}, {}, 0.05).width(), 1540);
+  EXPECT_EQ(draw_map({{1.0F, 1.0F, 1.0F}}, {}, 0.05).width(), 1540);
 }
 
 TEST(Plot, PutsRoundNumbersOnAxes) {

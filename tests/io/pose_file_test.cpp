@@ -75,6 +75,7 @@ TEST(PoseFile, TakesScanNumbersFromFileNamesOrRows) {
   const auto named = read("file,x,y,yaw\nrun2/scan_012.ply,0,0,0\nother.ply,1,0,0\n");
   EXPECT_EQ(named.rows[0].scan, 12);
   EXPECT_EQ(named.rows[1].scan, 1);
+  EXPECT_EQ(number_in_name("1630577758569000.ply"), std::nullopt);
   const auto in_scan = read("scan,x,y,yaw\nscan_5.pcd,0,0,0\n");
   EXPECT_EQ(in_scan.rows[0].file, "scan_5.pcd");
   EXPECT_EQ(in_scan.rows[0].scan, 5);

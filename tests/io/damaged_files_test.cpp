@@ -4,7 +4,9 @@
 
 #include "io/cloud_file.h"
 #include "io/damage.h"
+#include "io/pose_file.h"
 #include "io/scan_files.h"
+#include "io/trajectory.h"
 
 namespace voxlist {
 namespace {
@@ -41,6 +43,33 @@ TEST(DamagedScans, AreReadOrRefusedAndAllCounted) {
     all += read[kind] + refused[kind];
   }
   EXPECT_EQ(all, kFiles);
+}
+
+TEST(DamagedTables, AreReadOrRefused) {
+  constexpr int kFiles = 2'000;
+  constexpr std::uint64_t kSeed = 7;
+  const std::string poses =
+      "index,file,utime,x,y,z,qx,qy,qz,qw\n0,a.ply,1000000,1,2,3,0,0,0,1\n1,b.ply,2000000,1,2,3,0,"
+      "0,1,0\n";
+  const std::string trajectory = "# t x y z\n1.5 1 2 3 0 0 0 1\n2.5 1 2 3 0 0 1 0\n";
+  const test::TemporaryFolder folder;
+  test::Damage damage(kSeed);
+  int read = 0, refused = 0;
+  for (int i = 0; i < kFiles; ++i) {
+    try {
+      if (i % 2 == 0) {
+        read_pose_csv(folder.write("poses.csv", damage(poses)));
+      } else {
+        read_tum(folder.write("t.tum", damage(trajectory)));
+      }
+      ++read;
+    } catch (const FileError&) {
+      ++refused;
+    }
+  }
+  EXPECT_GT(read, 100);
+  EXPECT_GT(refused, 100);
+  EXPECT_EQ(read + refused, kFiles);
 }
 
 }  // namespace
