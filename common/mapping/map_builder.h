@@ -16,7 +16,7 @@ struct Keyframe {
 };
 
 struct MapBuilderConfig {
-  /// A cloud is added after this much motion since the nearest keyframe in time (m, or degrees).
+  /// A cloud is added after this much motion since the last keyframe (m, or degrees).
   double min_distance_m = 0.3;
   double min_turn_deg = 12.0;
   /// Points farther from the sensor than this are left out (m).
@@ -44,14 +44,14 @@ class MapBuilder {
   const VoxelMap& map() const { return map_; }
   const std::vector<Keyframe>& keyframes() const { return keyframes_; }
 
-  /// Indices (into map()) of the blocks that the last add() changed, each once, ascending.
-  const std::vector<std::size_t>& changed_blocks() const { return changed_blocks_; }
+  /// Positions (block coordinates) of the blocks that the last add() changed, each once, ascending.
+  const std::vector<Voxel>& changed_blocks() const { return changed_blocks_; }
 
  private:
   const MapBuilderConfig config_;
   VoxelMap map_;
   std::vector<Keyframe> keyframes_;
-  std::vector<std::size_t> changed_blocks_;
+  std::vector<Voxel> changed_blocks_;
 };
 
 }  // namespace voxlist

@@ -48,6 +48,11 @@ class Localiser {
  private:
   struct Track;
   Matcher& matcher();
+  static Localisation origin(const Cloud& cloud);
+  // Each also gives the fit of its first mode.
+  Localisation track(const Cloud& cloud, const std::optional<Pose2>& T_odom_base, double& fit);
+  Localisation locate(const Cloud& cloud, double& fit);
+  void remember(const Cloud& cloud, const std::optional<Pose2>& T_odom_base, const Pose2& pose, double fit);
 
   const VoxelMap& map_;
   const LocaliserConfig config_;

@@ -164,8 +164,9 @@ SearchResult search(const SearchMap& map, const MatchPoints& points, const PoseW
   const Lattice lattice(map, points, window);
   auto open = open_top_nodes(lattice, config.mode_ratio);
   result.poses_examined = lattice.top_count();
+  result.lattice_poses = static_cast<double>(lattice.top_count()) * std::pow(8.0, lattice.top_level());
   std::int64_t expanded = 0;
-  while (!open.empty() && static_cast<int>(result.modes.size()) < config.max_modes) {
+  while (!open.empty() && result.modes.size() < config.max_modes) {
     const Node node = open.top();
     open.pop();
     result.bound = result.modes.empty() ? node.bound : result.modes.front().overlap;

@@ -42,7 +42,7 @@ struct SearchConfig {
   /// Modes reported beside the best one overlap at least this share of the best overlap.
   double mode_ratio = 0.8;
   /// Most modes reported.
-  int max_modes = 8;
+  std::size_t max_modes = 8;
   /// Two poses nearer than this, both in distance and in heading, are one mode.
   double mode_distance_m = 0.5;
   double mode_turn_rad = 0.2;
@@ -64,6 +64,8 @@ struct SearchResult {
   bool certified = false;
   /// No unseen pose overlaps more than this (equal to the best overlap when certified).
   int bound = 0;
+  /// Poses of the lattice that was searched.
+  double lattice_poses = 0.0;
   /// Nodes and poses whose overlap was counted.
   std::int64_t poses_examined = 0;
 };

@@ -1,5 +1,7 @@
 #include "voxels/bit_grid.h"
 
+#include <bit>
+
 namespace voxlist {
 
 BitGrid::BitGrid(const Voxel& origin, std::int32_t size_x, std::int32_t size_y, std::int32_t size_z)
@@ -60,6 +62,12 @@ BitGrid BitGrid::or_shifted_z(std::span<const std::int32_t> offsets) const {
 
 void BitGrid::merge(const BitGrid& other) {
   for (std::size_t w = 0; w < words_.size(); ++w) words_[w] |= other.words_[w];
+}
+
+std::int64_t BitGrid::count() const {
+  std::int64_t marked = 0;
+  for (const std::uint64_t word : words_) marked += std::popcount(word);
+  return marked;
 }
 
 }  // namespace voxlist

@@ -31,6 +31,9 @@ class BitGrid {
   /// Marks every voxel that is marked in `other`. Precondition: the same box.
   void merge(const BitGrid& other);
 
+  /// Marked voxels.
+  std::int64_t count() const;
+
   const Voxel& origin() const { return origin_; }
   std::int32_t size_x() const { return static_cast<std::int32_t>(size_x_); }
   std::int32_t size_y() const { return static_cast<std::int32_t>(size_y_); }

@@ -60,6 +60,7 @@ Pyramid::Pyramid(const VoxelMap& map, const PyramidConfig& config) {
 
   const std::int32_t margin = 2 << config.levels;
   levels_.push_back(tolerant_grid(map, {lowest_, end_}, factor, margin));
+  occupied_cells_ = levels_.front().count();
   for (int k = 1; k <= config.levels; ++k) {
     const std::int32_t h = 1 << (k - 1);
     const std::vector<std::int32_t> offsets =

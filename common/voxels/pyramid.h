@@ -37,9 +37,12 @@ class Pyramid {
   /// The box of cells that hold the map (lowest cell and one past the highest), without the levels' margins.
   const Voxel& lowest() const { return lowest_; }
   const Voxel& end() const { return end_; }
+  /// Cells of level 0 that are occupied.
+  std::int64_t occupied_cells() const { return occupied_cells_; }
 
  private:
   double resolution_m_;
+  std::int64_t occupied_cells_;
   Voxel lowest_, end_;
   std::vector<BitGrid> levels_;
 };

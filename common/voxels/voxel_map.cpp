@@ -23,7 +23,6 @@ std::uint64_t pack(const Voxel& block) {
   return part(block.x) | part(block.y) << 21 | part(block.z) << 42;
 }
 
-Voxel block_of(const Voxel& v) { return {v.x >> 3, v.y >> 3, v.z >> 3}; }
 std::size_t word_of(const Voxel& v) { return static_cast<std::size_t>(v.z & 7); }
 std::uint64_t bit_of(const Voxel& v) { return std::uint64_t{1} << ((v.x & 7) + 8 * (v.y & 7)); }
 
@@ -53,8 +52,13 @@ bool VoxelMap::insert(const Voxel& block, const VoxelBlock& bits) {
 }
 
 bool VoxelMap::contains(const Voxel& voxel) const {
-  const std::int32_t index = directory_[slot_of(block_of(voxel))];
-  return index != kFree && (blocks_[static_cast<std::size_t>(index)][word_of(voxel)] & bit_of(voxel)) != 0;
+  const VoxelBlock* block = find_block(block_of(voxel));
+  return block && ((*block)[word_of(voxel)] & bit_of(voxel)) != 0;
+}
+
+const VoxelBlock* VoxelMap::find_block(const Voxel& block) const {
+  const std::int32_t index = directory_[slot_of(block)];
+  return index == kFree ? nullptr : &blocks_[static_cast<std::size_t>(index)];
 }
 
 std::size_t VoxelMap::memory_bytes() const {

@@ -15,6 +15,9 @@ using VoxelBlock = std::array<std::uint64_t, 8>;
 /// Voxels along a block's edge.
 inline constexpr std::int32_t kBlockEdge = 8;
 
+/// The block that holds a voxel.
+inline Voxel block_of(const Voxel& v) { return {v.x >> 3, v.y >> 3, v.z >> 3}; }
+
 /// A set of occupied voxels for fast insertion and look-up: a hash directory of 64-byte blocks that grows with the
 /// map. About 4 bytes per voxel at 0.02 m. Reading from several threads at once is safe; writing is not.
 class VoxelMap {
@@ -39,6 +42,9 @@ class VoxelMap {
   std::size_t block_count() const { return blocks_.size(); }
   const Voxel& block_position(std::size_t i) const { return positions_[i]; }
   const VoxelBlock& block(std::size_t i) const { return blocks_[i]; }
+
+  /// The block at a position (block coordinates), or nullptr when nothing was ever put there.
+  const VoxelBlock* find_block(const Voxel& block) const;
 
   /// Bytes held by directory and blocks.
   std::size_t memory_bytes() const;

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "matching/match_points.h"
+#include "matching/refine.h"
+#include "matching/search.h"
+
+namespace voxlist {
+
+struct MatcherConfig {
+  /// "search": certified branch and bound. "particle_filter": the paper's, for comparison (seconds a cloud).
+  std::string engine = "search";
+  /// Cell of the tolerant map and lattice of the poses (m); refinement goes on from there.
+  double resolution_m = 0.08;
+  /// Points farther away than this take no part (m).
+  double max_range_m = 60.0;
+  /// Most points that a search counts, and that a refinement uses. Changes speed, and little else.
+  int search_points = 1000;
+  int refine_points = 4000;
+  /// Most nodes that a search opens before it gives up the certificate. Changes speed: about 10 us each.
+  int max_nodes = 100'000;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v("engine", engine, "search (certified) or particle_filter (the paper's; seconds a cloud)");
+    v("resolution_m", resolution_m, "lattice of the poses that are searched; refined after that", 0.02, 1.0);
+    v("max_range_m", max_range_m, "points farther away take no part in matching", 1.0, 500.0);
+    v("search_points", search_points, "most points that a search counts: speed", 50, 20000);
+    v("refine_points", refine_points, "most points that a refinement uses: speed", 50, 100000);
+    v("max_nodes", max_nodes, "nodes after which a search gives up its certificate: speed", 100, 100'000'000);
+  }
+};
+
+/// A local best of the match, refined to the continuous optimum.
+struct MatchMode {
+  Pose2 pose;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  /// Share of the points in occupied cells of the tolerant map, before refinement.
+  double overlap = 0.0;
+  /// Share of the points that lie on the map's surfaces, after refinement: the finer score, used to rank.
+  double fit = 0.0;
+};
+
+struct Match {
+  /// By falling fit; distinct in pose; empty when there is nothing to match.
+  std::vector<MatchMode> modes;
+  bool certified = false;
+  std::int64_t poses_examined = 0;
+  /// log10 significance of the best mode (paper, section IV) over all poses of the lattice.
+  double significance_log10 = 0.0;
+};
+
+/// Matches scans with one map, whatever the engine. Built anew after the map has changed.
+class Matcher {
+ public:
+  virtual ~Matcher() = default;
+
+  /// The modes of the scan's pose within the window, or in the whole map without one. Points in base (m).
+  virtual Match match(std::span<const Eigen::Vector3f> points, const std::optional<PoseWindow>& window) const = 0;
+};
+
+/// Makes the map ready for matching. The map must outlive the matcher and stay as it is.
+/// Throws std::invalid_argument on an unknown engine.
+std::unique_ptr<Matcher> make_matcher(const VoxelMap& map, const MatcherConfig& config);
+
+}  // namespace voxlist
