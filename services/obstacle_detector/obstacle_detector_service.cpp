@@ -1,0 +1,54 @@
+#include "services/obstacle_detector/obstacle_detector_service.h"
+
+#include <stdexcept>
+#include <voxlist/obstacles_t.hpp>
+#include <voxlist/pointcloud_t.hpp>
+
+#include "bus/bus.h"
+#include "bus/convert.h"
+#include "bus/health.h"
+
+namespace voxlist {
+namespace {
+
+// A detector that can see nothing would tell a planner that the way is free.
+const ObstacleConfig& checked(const ObstacleConfig& config) {
+  if (config.min_height_m >= config.max_height_m)
+    throw std::invalid_argument("min_height_m must be below max_height_m");
+  if (config.min_range_m >= config.max_range_m)
+    throw std::invalid_argument("min_range_m must be below max_range_m");
+  return config;
+}
+
+obstacles_t to_message(const ObstacleScan& scan, const ObstacleConfig& config) {
+  obstacles_t message{};
+  message.utime = scan.utime_us;
+  message.min_height_m = static_cast<float>(config.min_height_m);
+  message.max_height_m = static_cast<float>(config.max_height_m);
+  message.n_bearings = static_cast<std::int32_t>(scan.ranges_m.size());
+  message.rad0 = 0.0F;
+  message.radstep = static_cast<float>(scan.step_rad);
+  message.ranges_m = scan.ranges_m;
+  message.n_cells = static_cast<std::int32_t>(scan.cells_m.size());
+  for (const Eigen::Vector2f& cell : scan.cells_m) message.cells.push_back({cell.x(), cell.y()});
+  message.types.assign(scan.cells_m.size(), obstacles_t::OBSTACLE);
+  return message;
+}
+
+}  // namespace
+
+ObstacleDetectorService::ObstacleDetectorService(Bus& bus, Health& health,
+                                                 const ObstacleConfig& config)
+    : bus_(bus), health_(health), config_(checked(config)) {
+  bus_.subscribe(
+      kCloud, [this](const pointcloud_t& m) { take(m); }, Delivery::kLatest);
+}
+
+void ObstacleDetectorService::take(const pointcloud_t& message) {
+  const ReceivedCloud received = from_message(message);
+  if (received.dropped_points > 0) health_.count("CLOUD/dropped_points", received.dropped_points);
+  if (!received.cloud) return health_.count("CLOUD/" + received.refusal);
+  bus_.publish(kObstacles, to_message(nearest_obstacles(*received.cloud, config_), config_));
+}
+
+}  // namespace voxlist

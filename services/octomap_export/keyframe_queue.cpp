@@ -1,0 +1,44 @@
+#include "services/octomap_export/keyframe_queue.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+namespace voxlist {
+
+bool KeyframeQueue::is_of_another_map(const PosedCloud& keyframe) const {
+  if (map_id_ != keyframe.map_id) return true;
+  return keyframe.index < next_index() &&
+         handed_out_us_[static_cast<std::size_t>(keyframe.index)] != keyframe.cloud.utime_us;
+}
+
+KeyframeQueue::Verdict KeyframeQueue::add(PosedCloud keyframe) {
+  if (is_of_another_map(keyframe)) {
+    *this = {};
+    map_id_ = keyframe.map_id;
+  }
+  const std::int32_t index = keyframe.index;
+  last_known_ = std::max(last_known_, index);
+  if (index < next_index() || !waiting_.emplace(index, std::move(keyframe)).second)
+    return Verdict::kRepeated;
+  if (waiting_.size() <= kCapacity) return Verdict::kTaken;
+  waiting_.erase(std::prev(waiting_.end()));
+  return Verdict::kDroppedOne;
+}
+
+std::optional<PosedCloud> KeyframeQueue::next() {
+  auto node = waiting_.extract(next_index());
+  if (!node) return std::nullopt;
+  handed_out_us_.push_back(node.mapped().cloud.utime_us);
+  return std::move(node.mapped());
+}
+
+std::optional<std::int32_t> KeyframeQueue::missing() const {
+  const bool knows_of_more = !map_id_ || last_known_ >= next_index();
+  if (!knows_of_more || waiting_.contains(next_index())) return std::nullopt;
+  return next_index();
+}
+
+bool KeyframeQueue::is_done() const { return map_id_ && last_known_ < next_index(); }
+
+}  // namespace voxlist

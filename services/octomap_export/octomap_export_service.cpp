@@ -1,0 +1,117 @@
+#include "services/octomap_export/octomap_export_service.h"
+
+#include <spdlog/spdlog.h>
+
+#include <exception>
+#include <filesystem>
+#include <voxlist/keyframe_t.hpp>
+#include <voxlist/map_octree_t.hpp>
+#include <voxlist/map_request_t.hpp>
+
+#include "bus/bus.h"
+#include "bus/health.h"
+
+namespace voxlist {
+namespace {
+
+constexpr std::int64_t kSecond_us = 1'000'000;
+constexpr std::int64_t kAskPeriod_us = kSecond_us;
+constexpr std::int64_t kPublishPeriod_us = kSecond_us;
+
+}  // namespace
+
+OctomapExportService::OctomapExportService(Bus& bus, Health& health,
+                                           const OctomapExportConfig& config)
+    : bus_(bus), health_(health), config_(config), builder_(config.octomap) {
+  bus_.subscribe(kKeyframe, [this](const keyframe_t& m) { take(m); });
+}
+
+void OctomapExportService::take(const keyframe_t& message) {
+  auto keyframe = from_message(message);
+  if (!keyframe) return health_.count("KEYFRAME/refused");
+  using Verdict = KeyframeQueue::Verdict;
+  const Verdict verdict = queue_.add(std::move(*keyframe));
+  if (verdict == Verdict::kRepeated) health_.count("KEYFRAME/repeated");
+  if (verdict == Verdict::kDroppedOne) health_.count("KEYFRAME/queue_full");
+}
+
+void OctomapExportService::tick(std::int64_t now_us) {
+  if (const auto keyframe = queue_.next()) {
+    insert(*keyframe);
+    quiet_since_us_ = now_us;
+  }
+  if (const auto first = queue_.missing()) ask(*first, now_us);
+  if (publishing_.due(now_us, kPublishPeriod_us)) publish(now_us);
+  // While it catches up, a file of an earlier run holds more than it does.
+  const auto save_period_us = static_cast<std::int64_t>(config_.save_period_s * kSecond_us);
+  if (save_period_us > 0 && queue_.is_done() && saving_.due(now_us, save_period_us)) save(now_us);
+  report();
+}
+
+void OctomapExportService::stop() {
+  if (saving_.changed) save(0);
+}
+
+void OctomapExportService::insert(const PosedCloud& keyframe) {
+  if (keyframe.index == 0) builder_ = OctomapBuilder(config_.octomap);
+  builder_.insert(keyframe.T_map_base, keyframe.cloud);
+  map_id_ = keyframe.map_id;
+  utime_us_ = keyframe.cloud.utime_us;
+  keyframes_ = keyframe.index + std::int64_t{1};
+  publishing_.changed = true;
+  saving_.changed = !config_.folder.empty();
+}
+
+void OctomapExportService::ask(std::int32_t first, std::int64_t now_us) {
+  if (quiet_since_us_ && now_us - *quiet_since_us_ < kAskPeriod_us) return;
+  quiet_since_us_ = now_us;
+  map_request_t request{};
+  request.utime = utime_us_;
+  request.want = map_request_t::WANT_KEYFRAMES;
+  request.first = first;
+  bus_.publish(kMapRequest, request);
+}
+
+void OctomapExportService::publish(std::int64_t now_us) {
+  publishing_ = {false, now_us};
+  map_octree_t message{};
+  message.utime = utime_us_;
+  message.map_id = map_id_;
+  message.view_id = keyframes_;
+  message.data = builder_.binary();
+  message.num_bytes = static_cast<std::int32_t>(message.data.size());
+  for (int i = 0; i < 4; ++i) message.transform[i][i] = 1.0F;
+  bus_.publish(kOctomap, message);
+}
+
+void OctomapExportService::save(std::int64_t now_us) {
+  std::string error;
+  try {
+    write_files();
+  } catch (const std::exception& e) {
+    error = e.what();
+    health_.count("failed_saves");
+  }
+  saving_ = {!error.empty(), now_us};
+  if (error != save_error_ && error.empty()) spdlog::info("files are written again");
+  if (error != save_error_ && !error.empty()) spdlog::error("{}", error);
+  save_error_ = error;
+}
+
+void OctomapExportService::write_files() const {
+  const std::filesystem::path folder(config_.folder);
+  std::filesystem::create_directories(folder);
+  builder_.write_bt(folder / "map.bt");
+  builder_.write_ot(folder / "map.ot");
+}
+
+void OctomapExportService::report() {
+  using State = Health::State;
+  const auto missing = queue_.missing();
+  if (!save_error_.empty()) return health_.set_state(State::kError, save_error_);
+  if (!missing) return health_.set_state(State::kOk);
+  if (*missing == 0) return health_.set_state(State::kOk, "waits for the map's first keyframe");
+  health_.set_state(State::kWarning, "waits for keyframe " + std::to_string(*missing));
+}
+
+}  // namespace voxlist

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "bus/channels.h"
+#include "planning/octomap.h"
+#include "services/octomap_export/keyframe_queue.h"
+
+namespace voxlist {
+
+class Bus;
+class Health;
+
+/// Settings of the OctoMap export.
+struct OctomapExportConfig {
+  std::string folder;
+  double save_period_s = 30.0;
+  OctomapConfig octomap;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v("folder", folder, "for map.bt and map.ot; made if it is not there; empty: no files");
+    v("save_period_s", save_period_s,
+      "files are written this often if something changed; 0: only on stop", 0.0, 86'400.0);
+    octomap.visit(v);
+  }
+};
+
+/// Inserts the mapper's keyframes into an OctoMap, in their order, and hands it on as OCTOMAP and
+/// as files.
+class OctomapExportService {
+ public:
+  OctomapExportService(Bus& bus, Health& health, const OctomapExportConfig& config);
+
+  /// Inserts one keyframe at most, asks for what is missing, and publishes and saves what is due.
+  void tick(std::int64_t now_us);
+
+  /// Saves what has changed since it was last saved.
+  void stop();
+
+ private:
+  // Published and saved when something changed, but not more often than its period.
+  struct Pending {
+    bool changed = false;
+    std::optional<std::int64_t> last_us;
+
+    bool due(std::int64_t now_us, std::int64_t period_us) const {
+      return changed && (!last_us || now_us - *last_us >= period_us);
+    }
+  };
+
+  void take(const keyframe_t& message);
+  void insert(const PosedCloud& keyframe);
+  void ask(std::int32_t first, std::int64_t now_us);
+  void publish(std::int64_t now_us);
+  void save(std::int64_t now_us);
+  void write_files() const;
+  void report();
+
+  Bus& bus_;
+  Health& health_;
+  const OctomapExportConfig config_;
+  KeyframeQueue queue_;
+  OctomapBuilder builder_;
+  // Of the newest keyframe inserted.
+  std::int64_t map_id_ = 0, utime_us_ = 0;
+  std::int64_t keyframes_ = 0;
+  Pending publishing_, saving_;
+  std::optional<std::int64_t> quiet_since_us_;  // last keyframe inserted, or asked for
+  std::string save_error_;
+};
+
+}  // namespace voxlist

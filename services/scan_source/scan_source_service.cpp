@@ -1,0 +1,113 @@
+#include "services/scan_source/scan_source_service.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <voxlist/pointcloud_t.hpp>
+#include <voxlist/pose_t.hpp>
+
+#include "bus/bus.h"
+#include "bus/convert.h"
+#include "bus/health.h"
+#include "io/file.h"
+
+namespace voxlist {
+namespace {
+
+// Odometry farther from the scans than this is about something else.
+constexpr std::int64_t kOdometryMargin_us = 1'000'000;
+
+// Between the last scan of a round and the first of the next, when there is but one.
+constexpr std::int64_t kDefaultPeriod_us = 1'000'000;
+
+const ScanSourceConfig& checked(const ScanSourceConfig& config) {
+  if (config.folder.empty())
+    throw std::invalid_argument("no scans: set folder in the table [scan_source] of --config FILE");
+  return config;
+}
+
+}  // namespace
+
+ScanSourceService::ScanSourceService(Bus& bus, Health& health, const ScanSourceConfig& config)
+    : bus_(bus),
+      health_(health),
+      config_(checked(config)),
+      folder_(config.folder),
+      events_(make_events()) {}
+
+std::vector<ScanSourceService::Event> ScanSourceService::make_events() const {
+  std::vector<Event> events;
+  if (const auto& odometry = folder_.odometry()) {
+    const std::int64_t from = folder_.utime_us(0) - kOdometryMargin_us;
+    const std::int64_t to = folder_.utime_us(folder_.size() - 1) + kOdometryMargin_us;
+    for (std::size_t row = 0; row < odometry->rows.size(); ++row) {
+      const std::int64_t utime_us = odometry->rows[row].utime_us;
+      if (utime_us >= from && utime_us <= to) events.push_back({utime_us, false, row});
+    }
+    if (events.empty())
+      throw FileError(std::filesystem::path(config_.folder) / "odometry.csv",
+                      "is of another time than the scans, give their times in poses.csv");
+  }
+  for (std::size_t scan = 0; scan < folder_.size(); ++scan)
+    events.push_back({folder_.utime_us(scan), true, scan});
+  // Stable: odometry comes before the scan of the same time, which is located by it.
+  std::ranges::stable_sort(events, {}, &Event::utime_us);
+  return events;
+}
+
+std::int64_t ScanSourceService::round_us() const {
+  const auto scans = static_cast<std::int64_t>(folder_.size());
+  const std::int64_t scans_us = folder_.utime_us(folder_.size() - 1) - folder_.utime_us(0);
+  const std::int64_t period_us = scans > 1 ? scans_us / (scans - 1) : kDefaultPeriod_us;
+  return events_.back().utime_us - events_.front().utime_us + period_us;
+}
+
+void ScanSourceService::tick(std::int64_t now_us) {
+  if (!start_us_) start_us_ = now_us;
+  for (bool scan_told = false; !scan_told && is_due(now_us); advance()) {
+    const Event& event = events_[next_];
+    if (event.is_scan) publish_scan(event.number);
+    if (!event.is_scan) publish_odometry(event.number);
+    scan_told = event.is_scan;
+  }
+}
+
+bool ScanSourceService::is_due(std::int64_t now_us) const {
+  if (next_ == events_.size()) return false;
+  const std::int64_t data_us = events_[next_].utime_us + later_us_ - events_.front().utime_us;
+  return static_cast<double>(data_us) <= config_.speed * static_cast<double>(now_us - *start_us_);
+}
+
+void ScanSourceService::advance() {
+  if (++next_ < events_.size()) return;
+  say_how_it_went();
+  if (!config_.loop) return;
+  next_ = 0;
+  later_us_ += round_us();
+}
+
+void ScanSourceService::publish_odometry(std::size_t row) {
+  const PoseRow& odometry = folder_.odometry()->rows[row];
+  bus_.publish(kOdometry, to_message(StampedPose3{odometry.utime_us + later_us_, odometry.pose}));
+}
+
+void ScanSourceService::publish_scan(std::size_t scan) try {
+  Cloud cloud = folder_.read(scan);
+  cloud.utime_us += later_us_;
+  if (const auto truth = folder_.truth(scan))
+    bus_.publish(kTruth, to_message(StampedPose3{cloud.utime_us, *truth}));
+  bus_.publish(kCloud, to_message(cloud, "base", clouds_++));
+} catch (const FileError& error) {
+  ++unreadable_;
+  health_.count("unreadable_scans");
+  spdlog::warn("{}", error.what());
+}
+
+void ScanSourceService::say_how_it_went() {
+  std::string message = config_.loop ? "" : "all scans are out";
+  if (unreadable_ > 0)
+    message += (message.empty() ? "" : ", ") + std::to_string(unreadable_) + " could not be read";
+  health_.set_state(unreadable_ > 0 ? Health::State::kWarning : Health::State::kOk, message);
+}
+
+}  // namespace voxlist
