@@ -13,12 +13,22 @@ namespace voxlist {
 struct Section {
   std::string name;
   std::function<void(SettingsVisitor&)> visit;
+  /// The table has a reader that knows more of its keys: unknown ones are left to it.
+  bool shared = false;
 };
 
 /// The table `[name]` for a struct with a visit member; `settings` must outlive the section.
 template <class Settings>
 Section section(std::string name, Settings& settings) {
   return {std::move(name), [&settings](SettingsVisitor& visitor) { settings.visit(visitor); }};
+}
+
+/// The same for a program that needs only some keys of another program's table.
+template <class Settings>
+Section shared_section(std::string name, Settings& settings) {
+  Section result = section(std::move(name), settings);
+  result.shared = true;
+  return result;
 }
 
 /// Reads a TOML file into the sections' structs; keys that the file leaves out keep their values.

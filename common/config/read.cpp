@@ -86,9 +86,12 @@ class Reader : public SettingsVisitor {
     read_list(key, values);
   }
 
-  /// The complaints so far, and one for each key that no member asked for.
-  std::vector<std::string> complaints() const {
-    std::vector<std::string> all = complaints_;
+  /// What is wrong with the keys that members asked for.
+  const std::vector<std::string>& complaints() const { return complaints_; }
+
+  /// A complaint for each key that no member asked for.
+  std::vector<std::string> unknown_keys() const {
+    std::vector<std::string> all;
     for (const auto& [key, node] : table_) {
       const std::string text(key.str());
       if (keys_.contains(text)) continue;
@@ -180,6 +183,7 @@ std::vector<std::string> read_config(const std::filesystem::path& file,
     Reader reader(file, section.name, table ? *table : nothing);
     section.visit(reader);
     std::ranges::copy(reader.complaints(), std::back_inserter(complaints));
+    if (!section.shared) std::ranges::copy(reader.unknown_keys(), std::back_inserter(complaints));
   }
   std::ranges::copy(check_tables(file, root, known), std::back_inserter(complaints));
   return complaints;

@@ -51,6 +51,15 @@ TEST_F(ReadConfig, TakesAWholeNumberForAFloat) {
   EXPECT_EQ(sample_.resolution_m, 1.0);
 }
 
+TEST_F(ReadConfig, LeavesUnknownKeysOfASharedTableToItsOtherReader) {
+  std::ofstream(file()) << "[sample]\nscans = 7\nperiod_s = 2\n";
+  EXPECT_THAT(read_config(file(), {shared_section("sample", sample_)}), IsEmpty());
+  EXPECT_EQ(sample_.scans, 7);
+  std::ofstream(file()) << "[sample]\nscans = 70\n";
+  EXPECT_THAT(read_config(file(), {shared_section("sample", sample_)}),
+              ElementsAre(HasSubstr("must be 1 to 10")));
+}
+
 TEST_F(ReadConfig, NamesFileLineAndKnownKeysForAnUnknownKey) {
   EXPECT_THAT(read("[sample]\nscans = 2\nresolution = 0.1\n"),
               ElementsAre(file().string() +

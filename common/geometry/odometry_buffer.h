@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+
+#include "geometry/cloud.h"
+
+namespace voxlist {
+
+/// The newest odometry, to be asked where it stood when a cloud was taken. Live and from a log it
+/// gives the same answers, as long as odometry comes before the cloud of the same time.
+class OdometryBuffer {
+ public:
+  /// Odometry older than this says nothing of now: the wheels' computer is dead (us).
+  static constexpr std::int64_t kMaxAge_us = 1'000'000;
+
+  /// Poses that are kept: ten seconds of the fastest odometry.
+  static constexpr std::size_t kCapacity = 1000;
+
+  /// Takes T_odom_base. Poses may come a little out of order; one that is more than kMaxAge_us
+  /// older than the newest means that time started anew, and all before it is forgotten.
+  void add(const StampedPose2& T_odom_base);
+
+  /// The latest pose that is not after the time, as it was measured. Nothing when there is none, or
+  /// when it is older than kMaxAge_us then.
+  std::optional<Pose2> at(std::int64_t utime_us) const;
+
+ private:
+  std::deque<StampedPose2> poses_;  // by time
+};
+
+}  // namespace voxlist
