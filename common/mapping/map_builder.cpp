@@ -5,10 +5,8 @@
 
 namespace voxlist {
 
-bool MapBuilder::wants(const Localisation& localisation) const {
-  if (!localisation.tracking() || localisation.modes.empty()) return false;
+bool MapBuilder::wants(const Pose2& pose) const {
   if (keyframes_.empty()) return true;
-  const Pose2& pose = localisation.modes.front().T_map_base;
   const Pose2 last = to_pose2(keyframes_.back().T_map_base);
   return distance_m(pose, last) >= config_.min_distance_m ||
          turn_rad(pose, last) >= config_.min_turn_deg * std::numbers::pi / 180.0;

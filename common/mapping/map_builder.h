@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "geometry/cloud.h"
-#include "matching/localisation.h"
+#include "geometry/pose.h"
 #include "voxels/voxel_map.h"
 
 namespace voxlist {
@@ -35,8 +35,8 @@ class MapBuilder {
  public:
   explicit MapBuilder(const MapBuilderConfig& config = {}) : config_(config) {}
 
-  /// Whether a cloud with this localisation belongs into the map: tracked, and moved enough since the last keyframe.
-  bool wants(const Localisation& localisation) const;
+  /// Whether a cloud with this pose (T_map_base, which must be a sure one) has moved enough since the last keyframe.
+  bool wants(const Pose2& pose) const;
 
   /// Puts a keyframe into the map, whatever wants() says.
   void add(Keyframe keyframe);

@@ -23,6 +23,12 @@ std::uint64_t pack(const Voxel& block) {
   return part(block.x) | part(block.y) << 21 | part(block.z) << 42;
 }
 
+std::size_t voxels_in(const VoxelBlock& block) {
+  std::size_t count = 0;
+  for (const std::uint64_t word : block) count += static_cast<std::size_t>(std::popcount(word));
+  return count;
+}
+
 std::size_t word_of(const Voxel& v) { return static_cast<std::size_t>(v.z & 7); }
 std::uint64_t bit_of(const Voxel& v) { return std::uint64_t{1} << ((v.x & 7) + 8 * (v.y & 7)); }
 
@@ -41,14 +47,12 @@ bool VoxelMap::insert(const Voxel& voxel) {
   return true;
 }
 
-bool VoxelMap::insert(const Voxel& block, const VoxelBlock& bits) {
+bool VoxelMap::set_block(const Voxel& block, const VoxelBlock& bits) {
   VoxelBlock& held = find_or_add(block);
-  const std::size_t before = size_;
-  for (std::size_t z = 0; z < bits.size(); ++z) {
-    size_ += static_cast<std::size_t>(std::popcount(bits[z] & ~held[z]));
-    held[z] |= bits[z];
-  }
-  return size_ != before;
+  if (held == bits) return false;
+  size_ = size_ - voxels_in(held) + voxels_in(bits);
+  held = bits;
+  return true;
 }
 
 bool VoxelMap::contains(const Voxel& voxel) const {

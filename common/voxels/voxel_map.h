@@ -28,8 +28,9 @@ class VoxelMap {
   /// Marks a voxel as occupied. True when it was not before. Precondition: |coordinates| <= kVoxelLimit.
   bool insert(const Voxel& voxel);
 
-  /// Marks a block's set bits. True when a voxel was added. `block` is in block coordinates (voxel / 8, rounded down).
-  bool insert(const Voxel& block, const VoxelBlock& bits);
+  /// Replaces the contents of a block. True when that changed a voxel. `block` is in block coordinates (voxel / 8,
+  /// rounded down). Precondition: its voxels are within kVoxelLimit.
+  bool set_block(const Voxel& block, const VoxelBlock& bits);
 
   bool contains(const Voxel& voxel) const;
 

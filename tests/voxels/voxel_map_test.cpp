@@ -52,10 +52,29 @@ TEST(VoxelMap, HashDependsOnTheSetAlone) {
 TEST(VoxelMap, BlocksCarryAMapToAnother) {
   VoxelMap map, copy;
   for (const auto& v : random_voxels(5, 5000, 50)) map.insert(v);
-  for (std::size_t i = 0; i < map.block_count(); ++i) EXPECT_TRUE(copy.insert(map.block_position(i), map.block(i)));
+  for (std::size_t i = 0; i < map.block_count(); ++i) EXPECT_TRUE(copy.set_block(map.block_position(i), map.block(i)));
   EXPECT_EQ(copy.hash(), map.hash());
   EXPECT_EQ(copy.size(), map.size());
-  EXPECT_FALSE(copy.insert(map.block_position(0), map.block(0)));
+  EXPECT_FALSE(copy.set_block(map.block_position(0), map.block(0)));
+}
+
+TEST(VoxelMap, ABlockSetEmptyLeavesNoTrace) {
+  VoxelMap map;
+  map.insert({1, 2, 3});
+  const std::uint64_t before = map.hash();
+  map.insert({100, 2, 3});
+  EXPECT_TRUE(map.set_block(block_of({100, 2, 3}), VoxelBlock{}));
+  EXPECT_EQ(map.size(), 1u);
+  EXPECT_FALSE(map.contains({100, 2, 3}));
+  EXPECT_EQ(map.hash(), before);
+}
+
+TEST(VoxelMap, FindsBlocksByPosition) {
+  VoxelMap map;
+  map.insert({-1, 9, 16});
+  ASSERT_NE(map.find_block({-1, 1, 2}), nullptr);
+  EXPECT_EQ((*map.find_block({-1, 1, 2}))[0], std::uint64_t{1} << (7 + 8 * 1));
+  EXPECT_EQ(map.find_block({0, 1, 2}), nullptr);
 }
 
 TEST(VoxelMap, RefusesAResolutionOfZero) { EXPECT_THROW(VoxelMap(0.0), std::invalid_argument); }

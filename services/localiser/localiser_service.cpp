@@ -1,0 +1,154 @@
+#include "services/localiser/localiser_service.h"
+
+#include <algorithm>
+#include <chrono>
+#include <voxlist/localisation_t.hpp>
+#include <voxlist/map_request_t.hpp>
+#include <voxlist/map_update_t.hpp>
+#include <voxlist/pointcloud_t.hpp>
+#include <voxlist/pose_t.hpp>
+
+#include "bus/bus.h"
+#include "bus/convert.h"
+#include "bus/health.h"
+#include "bus/map_convert.h"
+
+namespace voxlist {
+namespace {
+
+constexpr std::int64_t kRequestPeriod_us = 1'000'000;
+
+localisation_t to_message(const Localisation& result) {
+  localisation_t message{};
+  message.utime = result.utime_us;
+  message.state = static_cast<std::int32_t>(result.state);
+  for (const PoseMode& mode : result.modes) {
+    pose_mode_t out{};
+    out.pose[0] = mode.T_map_base.x_m;
+    out.pose[1] = mode.T_map_base.y_m;
+    out.pose[2] = mode.T_map_base.yaw_rad;
+    for (int i = 0; i < 9; ++i) out.covariance[i] = mode.covariance(i / 3, i % 3);
+    out.overlap = mode.overlap;
+    message.modes.push_back(out);
+  }
+  message.n_modes = static_cast<std::int32_t>(message.modes.size());
+  message.significance_log10 = result.significance_log10;
+  message.confidence = result.confidence;
+  message.certified = result.certified;
+  message.global = result.global;
+  message.poses_examined = result.poses_examined;
+  return message;
+}
+
+}  // namespace
+
+LocaliserService::LocaliserService(Bus& bus, Health& health, const LocaliserServiceConfig& config)
+    : bus_(bus), health_(health), config_(config), localiser_(map_, config.localiser) {
+  bus_.subscribe(kOdometry, [this](const pose_t& message) { take_odometry(message); });
+  bus_.subscribe(kMapUpdate, [this](const map_update_t& message) { take_map(message); });
+  bus_.subscribe(kCloud, [this](const pointcloud_t& message) { take_cloud(message); }, Delivery::kLatest);
+}
+
+void LocaliserService::take_cloud(const pointcloud_t& message) {
+  auto received = from_message(message);
+  if (received.dropped_points > 0) health_.count("CLOUD/dropped_points", received.dropped_points);
+  if (!received.cloud) return health_.count("CLOUD/" + received.refusal);
+  if (waiting_) health_.count("CLOUD/superseded_while_waiting");
+  waiting_ = Waiting{std::move(*received.cloud), bus_.arrival_utime_us()};
+}
+
+void LocaliserService::take_odometry(const pose_t& message) {
+  const auto pose = from_message(message);
+  if (!pose) return health_.count("ODOMETRY/not_a_pose");
+  const StampedPose2 T_odom_base{pose->utime_us, to_pose2(pose->pose)};
+  odometry_.add(T_odom_base);
+  if (T_map_odom_) publish_pose(T_odom_base.utime_us, *T_map_odom_ * T_odom_base.pose);
+}
+
+void LocaliserService::take_map(const map_update_t& message) {
+  const auto before = assembler_.held();
+  for (const MapChange& change : assembler_.add(message)) {
+    if (apply(change, map_)) localiser_.map_changed();
+  }
+  const auto& held = assembler_.held();
+  if (held && before && held->map_id != before->map_id) {
+    localiser_.forget();
+    T_map_odom_.reset();
+  }
+}
+
+void LocaliserService::tick(std::int64_t now_us) {
+  if (assembler_.needs_request()) request_map(now_us);
+  if (!waiting_) return;
+  if (unanswered_utime_us_ && !unanswered_since_us_) unanswered_since_us_ = now_us;
+  if (!map_is_due(now_us)) return;
+  const Waiting waiting = std::move(*waiting_);
+  waiting_.reset();
+  localise(waiting.cloud);
+  health_.add_latency_us(std::max<std::int64_t>(0, now_us - waiting.arrival_us));
+}
+
+void LocaliserService::request_map(std::int64_t now_us) {
+  if (last_request_us_ && now_us - *last_request_us_ < kRequestPeriod_us) return;
+  last_request_us_ = now_us;
+  map_request_t request{};
+  request.utime = now_us;
+  request.want = map_request_t::WANT_MAP;
+  bus_.publish(kMapRequest, request);
+}
+
+// Whether the map that the waiting cloud is to be matched with is here, or is not worth waiting for any longer.
+bool LocaliserService::map_is_due(std::int64_t now_us) const {
+  if (!unanswered_utime_us_) return true;
+  if (assembler_.held() && assembler_.held()->utime_us >= *unanswered_utime_us_) return true;
+  return static_cast<double>(now_us - unanswered_since_us_.value_or(now_us)) * 1e-6 >= config_.map_wait_s;
+}
+
+void LocaliserService::localise(const Cloud& cloud) {
+  using Clock = std::chrono::steady_clock;
+  const auto start = Clock::now();
+  const auto& held = assembler_.held();
+  Localisation result;
+  result.utime_us = cloud.utime_us;
+  const auto T_odom_base = odometry_.at(cloud.utime_us);
+  if (held) result = localiser_.localise(cloud, T_odom_base);
+
+  localisation_t message = to_message(result);
+  if (held) {
+    message.map_id = held->map_id;
+    message.map_version = held->version;
+  }
+  message.elapsed_us = static_cast<std::int32_t>(
+      std::chrono::duration_cast<std::chrono::microseconds>(Clock::now() - start).count());
+  health_.count(std::string("state/") + name(result.state));
+  health_.set_state(result.tracking() ? Health::State::kOk : Health::State::kWarning,
+                    result.tracking() ? "" : held ? name(result.state) : "waits for a map: is the mapper running?");
+  T_map_odom_.reset();
+  unanswered_utime_us_.reset();
+  unanswered_since_us_.reset();
+  if (result.tracking()) {
+    const Pose2& pose = result.modes.front().T_map_base;
+    if (T_odom_base) T_map_odom_ = pose * T_odom_base->inverse();
+    unanswered_utime_us_ = cloud.utime_us;
+    publish_pose(cloud.utime_us, pose);
+  } else {
+    last_pose_.reset();
+  }
+  bus_.publish(kLocalisation, message);
+}
+
+void LocaliserService::publish_pose(std::int64_t utime_us, const Pose2& pose) {
+  pose_t message = voxlist::to_message(StampedPose2{utime_us, pose});
+  // Velocities in base, over the step since the last POSE.
+  if (last_pose_ && utime_us > last_pose_->utime_us) {
+    const double dt_s = static_cast<double>(utime_us - last_pose_->utime_us) * 1e-6;
+    const Pose2 step = last_pose_->pose.inverse() * pose;
+    message.vel[0] = step.x_m / dt_s;
+    message.vel[1] = step.y_m / dt_s;
+    message.rotation_rate[2] = step.yaw_rad / dt_s;
+  }
+  if (!last_pose_ || utime_us > last_pose_->utime_us) last_pose_ = StampedPose2{utime_us, pose};
+  bus_.publish(kPose, message);
+}
+
+}  // namespace voxlist

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "bus/map_chunks.h"
+#include "geometry/odometry_buffer.h"
+#include "matching/localiser.h"
+
+namespace voxlist {
+
+class Bus;
+class Health;
+class map_update_t;
+class pose_t;
+class pointcloud_t;
+
+/// Settings of the localiser.
+struct LocaliserServiceConfig {
+  double map_wait_s = 0.5;
+  LocaliserConfig localiser;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v("map_wait_s", map_wait_s, "longest wait for the mapper's word on the last cloud before the next is matched", 0.0, 10.0);
+    localiser.visit(v);
+  }
+};
+
+/// CLOUD, ODOMETRY and MAP_UPDATE in; POSE, LOCALISATION and MAP_REQUEST out.
+///
+/// A cloud waits until the mapper has decided on the cloud before it (bounded by map_wait_s): so a run gives the same
+/// map as its replay, and as the desk tool. Only the newest cloud waits; older ones are counted as superseded.
+class LocaliserService {
+ public:
+  LocaliserService(Bus& bus, Health& health, const LocaliserServiceConfig& config);
+
+  /// Matches the waiting cloud when its turn has come, and asks for the map when one is missing.
+  void tick(std::int64_t now_us);
+
+ private:
+  struct Waiting {
+    Cloud cloud;
+    std::int64_t arrival_us;
+  };
+
+  void take_cloud(const pointcloud_t& message);
+  void take_odometry(const pose_t& message);
+  void take_map(const map_update_t& message);
+  void request_map(std::int64_t now_us);
+  bool map_is_due(std::int64_t now_us) const;
+  void localise(const Cloud& cloud);
+  void publish_pose(std::int64_t utime_us, const Pose2& pose);
+
+  Bus& bus_;
+  Health& health_;
+  const LocaliserServiceConfig config_;
+  VoxelMap map_;
+  Localiser localiser_;
+  MapAssembler assembler_;
+  OdometryBuffer odometry_;
+  std::optional<Waiting> waiting_;
+  std::optional<std::int64_t> last_request_us_;
+  // The last cloud that the mapper may have added, and since when its answer is awaited.
+  std::optional<std::int64_t> unanswered_utime_us_;
+  std::optional<std::int64_t> unanswered_since_us_;
+  // T_map_odom while tracking with odometry: what POSE between clouds is made of.
+  std::optional<Pose2> T_map_odom_;
+  std::optional<StampedPose2> last_pose_;
+};
+
+}  // namespace voxlist

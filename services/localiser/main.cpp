@@ -1,0 +1,8 @@
+#include "service/service.h"
+#include "services/localiser/localiser_service.h"
+
+int main(int argc, char** argv) {
+  using namespace voxlist;
+  return run_service<LocaliserService, LocaliserServiceConfig>(
+      argc, argv, {"localiser", "Finds the robot's pose in the map from each cloud, and says how sure it is."});
+}
