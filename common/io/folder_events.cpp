@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "io/file.h"
+
 namespace voxlist {
 namespace {
 
