@@ -49,6 +49,12 @@ void ObstacleDetectorService::take(const pointcloud_t& message) {
   if (received.dropped_points > 0) health_.count("CLOUD/dropped_points", received.dropped_points);
   if (!received.cloud) return health_.count("CLOUD/" + received.refusal);
   bus_.publish(kObstacles, to_message(nearest_obstacles(*received.cloud, config_), config_));
+  arrival_us_ = bus_.arrival_utime_us();
+}
+
+void ObstacleDetectorService::tick(std::int64_t now_us) {
+  if (arrival_us_) health_.add_latency_us(now_us - *arrival_us_);
+  arrival_us_.reset();
 }
 
 }  // namespace voxlist

@@ -2,7 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
+#include <stdexcept>
 #include <voxlist/pointcloud_t.hpp>
 #include <voxlist/pose_t.hpp>
 
@@ -13,9 +13,6 @@
 
 namespace voxlist {
 namespace {
-
-// Odometry farther from the scans than this is about something else.
-constexpr std::int64_t kOdometryMargin_us = 1'000'000;
 
 // Between the last scan of a round and the first of the next, when there is but one.
 constexpr std::int64_t kDefaultPeriod_us = 1'000'000;
@@ -33,27 +30,7 @@ ScanSourceService::ScanSourceService(Bus& bus, Health& health, const ScanSourceC
       health_(health),
       config_(checked(config)),
       folder_(config.folder),
-      events_(make_events()) {}
-
-std::vector<ScanSourceService::Event> ScanSourceService::make_events() const {
-  std::vector<Event> events;
-  if (const auto& odometry = folder_.odometry()) {
-    const std::int64_t from = folder_.utime_us(0) - kOdometryMargin_us;
-    const std::int64_t to = folder_.utime_us(folder_.size() - 1) + kOdometryMargin_us;
-    for (std::size_t row = 0; row < odometry->rows.size(); ++row) {
-      const std::int64_t utime_us = odometry->rows[row].utime_us;
-      if (utime_us >= from && utime_us <= to) events.push_back({utime_us, false, row});
-    }
-    if (events.empty())
-      throw FileError(std::filesystem::path(config_.folder) / "odometry.csv",
-                      "is of another time than the scans, give their times in poses.csv");
-  }
-  for (std::size_t scan = 0; scan < folder_.size(); ++scan)
-    events.push_back({folder_.utime_us(scan), true, scan});
-  // Stable: odometry comes before the scan of the same time, which is located by it.
-  std::ranges::stable_sort(events, {}, &Event::utime_us);
-  return events;
-}
+      events_(events_of(folder_)) {}
 
 std::int64_t ScanSourceService::round_us() const {
   const auto scans = static_cast<std::int64_t>(folder_.size());
@@ -65,7 +42,7 @@ std::int64_t ScanSourceService::round_us() const {
 void ScanSourceService::tick(std::int64_t now_us) {
   if (!start_us_) start_us_ = now_us;
   for (bool scan_told = false; !scan_told && is_due(now_us); advance()) {
-    const Event& event = events_[next_];
+    const FolderEvent& event = events_[next_];
     if (event.is_scan) publish_scan(event.number);
     if (!event.is_scan) publish_odometry(event.number);
     scan_told = event.is_scan;

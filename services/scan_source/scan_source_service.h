@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "io/folder_events.h"
 #include "io/scan_folder.h"
 
 namespace voxlist {
@@ -39,14 +40,6 @@ class ScanSourceService {
   void tick(std::int64_t now_us);
 
  private:
-  // A row of odometry.csv, or a scan with its truth.
-  struct Event {
-    std::int64_t utime_us;
-    bool is_scan;
-    std::size_t number;
-  };
-
-  std::vector<Event> make_events() const;
   std::int64_t round_us() const;
   bool is_due(std::int64_t now_us) const;
   void advance();
@@ -58,7 +51,7 @@ class ScanSourceService {
   Health& health_;
   const ScanSourceConfig config_;
   const ScanFolder folder_;
-  const std::vector<Event> events_;  // in the order of their times
+  const std::vector<FolderEvent> events_;
   std::size_t next_ = 0;
   std::optional<std::int64_t> start_us_;
   std::int64_t later_us_ = 0;  // than in the files: grows with each round

@@ -1,0 +1,153 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+#include <vector>
+#include <voxlist/health_t.hpp>
+#include <voxlist/obstacles_t.hpp>
+#include <voxlist/pointcloud_t.hpp>
+#include <voxlist/pose_t.hpp>
+
+#include "bus/bus.h"
+#include "bus/convert.h"
+#include "bus/health.h"
+#include "services/obstacle_detector/obstacle_detector_service.h"
+#include "services/simulator/simulator_service.h"
+
+namespace voxlist {
+namespace {
+
+constexpr std::int64_t kSecond_us = 1'000'000;
+
+// An obstacle straight ahead.
+pointcloud_t cloud_with_post(float range_m, std::int64_t utime_us) {
+  Cloud cloud;
+  cloud.utime_us = utime_us;
+  for (const float height_m : {0.5F, 0.52F, 0.54F})
+    cloud.points.emplace_back(range_m, 0.0F, height_m);
+  return to_message(cloud, "base", 0);
+}
+
+// How far the building is free along a bearing, from the robot's true pose.
+double free_m(const Building& building, const Pose2& T_map_base, double bearing_rad) {
+  for (double range_m = 0.0;; range_m += 0.01) {
+    const Eigen::Vector3d p = T_map_base * Eigen::Vector3d(range_m * std::cos(bearing_rad),
+                                                           range_m * std::sin(bearing_rad), 0.0);
+    if (building.clearance_m({p.x(), p.y()}, 0.1, 1.0) <= 0.0) return range_m;
+  }
+}
+
+// A detector, and what others hear of it.
+struct Heard {
+  explicit Heard(const ObstacleConfig& config = {}) : detector(bus, health, config) {
+    bus.subscribe(kObstacles, [this](const obstacles_t& m) { obstacles.push_back(m); });
+  }
+
+  // Until what has been published is detected, and what was detected is heard.
+  void handle() {
+    for (int i = 0; i < 3; ++i) bus.handle(std::chrono::milliseconds(0));
+  }
+
+  std::int64_t counted(const std::string& name) {
+    const std::optional<health_t> message = health.due(0);
+    for (const counter_t& counter : message.value().counters)
+      if (counter.name == name) return counter.count;
+    return 0;
+  }
+
+  Bus bus{{.url = "memq://", .prefix = ""}};
+  Health health{"obstacle_detector"};
+  ObstacleDetectorService detector;
+  std::vector<obstacles_t> obstacles;
+};
+
+TEST(ObstacleDetector, PublishesTheNearestWallOfTheSimulatedRoom) {
+  Heard heard;
+  SimulatorConfig config;
+  config.simulation.perfect_deskew = true;
+  Health simulator_health("simulator");
+  SimulatorService simulator(heard.bus, simulator_health, config);
+  std::optional<pose_t> truth;
+  heard.bus.subscribe(kTruth, [&](const pose_t& m) { truth = m; });
+  simulator.tick(0);
+  simulator.tick(kSecond_us);
+  heard.handle();
+
+  ASSERT_TRUE(truth);
+  ASSERT_EQ(heard.obstacles.size(), 1u);
+  const obstacles_t& message = heard.obstacles[0];
+  EXPECT_EQ(message.utime, truth->utime);
+  ASSERT_EQ(message.n_bearings, 360);
+  const Building building = make_building(config.simulation.building);
+  const Pose2 T_map_base = to_pose2(from_message(*truth)->pose);
+  for (const std::size_t sector : {30u, 150u, 180u, 210u, 330u}) {
+    const double bearing_rad = message.rad0 + static_cast<float>(sector) * message.radstep;
+    EXPECT_NEAR(message.ranges_m[sector], free_m(building, T_map_base, bearing_rad), 0.1) << sector;
+  }
+  EXPECT_EQ(message.ranges_m[90], INFINITY) << "the scanner does not see to the side";
+  EXPECT_GT(message.n_cells, 20);
+  EXPECT_THAT(message.types, testing::Each(static_cast<int>(obstacles_t::OBSTACLE)));
+}
+
+TEST(ObstacleDetector, SaysWhichHeightsItLookedAt) {
+  ObstacleConfig config;
+  config.min_height_m = 0.25;
+  config.max_height_m = 1.75;
+  Heard heard(config);
+  heard.bus.publish(kCloud, cloud_with_post(2.0F, 5));
+  heard.handle();
+  ASSERT_EQ(heard.obstacles.size(), 1u);
+  EXPECT_FLOAT_EQ(heard.obstacles[0].min_height_m, 0.25F);
+  EXPECT_FLOAT_EQ(heard.obstacles[0].max_height_m, 1.75F);
+  EXPECT_FLOAT_EQ(heard.obstacles[0].ranges_m[0], 2.0F);
+}
+
+TEST(ObstacleDetector, LooksOnlyAtTheNewestOfTheCloudsThatWait) {
+  Heard heard;
+  for (int i = 1; i <= 3; ++i) heard.bus.publish(kCloud, cloud_with_post(static_cast<float>(i), i));
+  heard.handle();
+  ASSERT_EQ(heard.obstacles.size(), 1u);
+  EXPECT_EQ(heard.obstacles[0].utime, 3);
+  EXPECT_FLOAT_EQ(heard.obstacles[0].ranges_m[0], 3.0F);
+}
+
+TEST(ObstacleDetector, CountsWhatItRefusesAndGoesOn) {
+  Heard heard;
+  heard.bus.publish(kCloud, cloud_with_post(2.0F, -1));
+  heard.handle();
+  EXPECT_TRUE(heard.obstacles.empty());
+  EXPECT_EQ(heard.counted("CLOUD/bad_utime"), 1);
+
+  pointcloud_t one_bad_point = cloud_with_post(2.0F, 7);
+  one_bad_point.points[0][1] = NAN;
+  heard.bus.publish(kCloud, one_bad_point);
+  heard.handle();
+  ASSERT_EQ(heard.obstacles.size(), 1u);
+  EXPECT_FLOAT_EQ(heard.obstacles[0].ranges_m[0], 2.0F);
+}
+
+TEST(ObstacleDetector, TellsHowLongACloudTook) {
+  Heard heard;
+  heard.detector.tick(kSecond_us);
+  EXPECT_EQ(heard.health.due(kSecond_us)->latency_max_ms, -1.0F);
+  std::int64_t arrival_us = 0;
+  heard.bus.subscribe(kHealth, [&](const health_t&) { arrival_us = heard.bus.arrival_utime_us(); });
+  heard.bus.publish(kHealth, *heard.health.due(2 * kSecond_us));
+  heard.bus.publish(kCloud, cloud_with_post(2.0F, 1));
+  heard.handle();
+  heard.detector.tick(arrival_us + 3600 * kSecond_us);
+  EXPECT_NEAR(heard.health.due(3 * kSecond_us)->latency_max_ms, 3.6e6F, 1e5F);
+}
+
+TEST(ObstacleDetector, DoesNotStartWhenItCouldNeverSeeAnything) {
+  ObstacleConfig upside_down, inside_out;
+  upside_down.min_height_m = 1.5;
+  inside_out.min_range_m = 50.0;
+  EXPECT_THROW(Heard{upside_down}, std::invalid_argument);
+  EXPECT_THROW(Heard{inside_out}, std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace voxlist
