@@ -1,0 +1,91 @@
+#include "services/voxlist/map_files.h"
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "io/file.h"
+#include "mapping/map_store.h"
+#include "mapping/map_views.h"
+#include "services/voxlist/progress.h"
+#include "services/voxlist/stop.h"
+
+namespace voxlist {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path made(fs::path folder) {
+  std::error_code failure;
+  fs::create_directories(folder, failure);
+  if (!fs::is_directory(folder, failure)) {
+    throw FileError(folder, "cannot be made a folder, check the name and its permissions");
+  }
+  return folder;
+}
+
+// By content: the same map has the same id. Positive, and never 0.
+std::int64_t map_id(const VoxelMap& map) { return static_cast<std::int64_t>(map.hash() >> 1 | 1); }
+
+}  // namespace
+
+MapFiles::MapFiles(fs::path folder)
+    : folder_(made(std::move(folder))), summary_(folder_ / "summary.json") {}
+
+void MapFiles::write_map(const MapRun& run) const {
+  const VoxelMap& map = run.builder().map();
+  write_map_views(folder_, map, run.trajectory());
+  const MapStore stored(folder_, map_id(map), run.builder().keyframes());
+}
+
+void MapFiles::write_octomap(const MapBuilder& builder, const OctomapConfig& config,
+                             Console& console) const {
+  OctomapBuilder octomap(config);
+  Progress progress(console, "making the OctoMap");
+  const auto& keyframes = builder.keyframes();
+  for (std::size_t i = 0; i < keyframes.size() && !stop_requested(); ++i) {
+    octomap.insert(keyframes[i].T_map_base, keyframes[i].cloud);
+    progress.show(static_cast<double>(i + 1) / static_cast<double>(keyframes.size()));
+  }
+  if (!stop_requested()) return octomap.write_bt(folder_ / "map.bt");
+  std::error_code ignored;
+  fs::remove(folder_ / "map.bt", ignored);
+}
+
+void MapFiles::write_summary(const MapRun& run, const RunFigures& figures) {
+  const VoxelMap& map = run.builder().map();
+  const double factor =
+      figures.elapsed_seconds > 0.0 ? figures.data_seconds / figures.elapsed_seconds : 0.0;
+  nlohmann::ordered_json json = {
+      {"input", figures.input},
+      {"version", VOXLIST_VERSION},
+      {"scans", figures.scans},
+      {"placed", run.trajectory().size()},
+      {"lost", run.lost()},
+      {"ambiguous", run.ambiguous()},
+      {"without_pose", figures.without_pose},
+      {"left_out", figures.left_out},
+      {"keyframes", run.builder().keyframes().size()},
+      {"data_seconds", figures.data_seconds},
+      {"elapsed_seconds", figures.elapsed_seconds},
+      {"real_time_factor", factor},
+      {"map_hash", hash_text(map)},
+      {"voxels", map.size()},
+      {"resolution_m", map.resolution_m()},
+      {"interrupted", figures.interrupted},
+  };
+  const std::string text = json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
+  std::ofstream file(summary_.path());
+  file << text << '\n';
+  file.close();
+  if (!file) throw FileError(folder_ / "summary.json", "cannot be written, check free space");
+  summary_.publish();
+}
+
+std::string hash_text(const VoxelMap& map) {
+  char text[17];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(map.hash()));
+  return text;
+}
+
+}  // namespace voxlist
