@@ -1,0 +1,128 @@
+#include "mapping/map_store.h"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <csignal>
+#include <fstream>
+#include <random>
+
+#include "io/file.h"
+#include "tests/services/temporary_folder.h"
+
+namespace voxlist {
+namespace {
+
+Keyframe keyframe(int number) {
+  Keyframe keyframe;
+  keyframe.T_map_base = to_pose3({0.5 * number, -0.25 * number, 0.1 * number});
+  keyframe.cloud.utime_us = 1'000'000 * number;
+  for (int i = 0; i < 10 * (number + 1); ++i) {
+    keyframe.cloud.points.emplace_back(0.1f * float(i), float(number), 1.f);
+    if (number % 2) keyframe.cloud.origins.emplace_back(0.f, 0.01f * float(i), 0.6f);
+  }
+  return keyframe;
+}
+
+void expect_keyframes(const StoredMap& stored, const std::vector<int>& numbers) {
+  ASSERT_EQ(stored.keyframes.size(), numbers.size());
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const Keyframe expected = keyframe(numbers[i]);
+    EXPECT_EQ(stored.keyframes[i].cloud.utime_us, expected.cloud.utime_us);
+    EXPECT_EQ(stored.keyframes[i].cloud.points, expected.cloud.points);
+    EXPECT_EQ(stored.keyframes[i].cloud.origins, expected.cloud.origins);
+    EXPECT_EQ(stored.keyframes[i].T_map_base.matrix().topRows<3>(), expected.T_map_base.matrix().topRows<3>());
+  }
+}
+
+std::filesystem::path store(const TemporaryFolder& folder, int keyframes) {
+  MapStore store(folder / "map", 42, {});
+  for (int i = 0; i < keyframes; ++i) store.append(keyframe(i));
+  return folder / "map";
+}
+
+TEST(MapStore, GivesBackWhatWasAppended) {
+  const TemporaryFolder folder;
+  const StoredMap stored = load_map(store(folder, 4));
+  EXPECT_EQ(stored.map_id, 42);
+  EXPECT_TRUE(stored.warning.empty());
+  expect_keyframes(stored, {0, 1, 2, 3});
+}
+
+TEST(MapStore, GoesOnWhereItStopped) {
+  const TemporaryFolder folder;
+  const auto map = store(folder, 2);
+  MapStore(map).append(keyframe(2));
+  expect_keyframes(load_map(map), {0, 1, 2});
+}
+
+TEST(MapStore, LosesAtMostTheTornRecord) {
+  const TemporaryFolder folder;
+  const auto map = store(folder, 3);
+  const auto file = map / kKeyframeFile;
+  std::filesystem::resize_file(file, std::filesystem::file_size(file) - 7);
+  const StoredMap stored = load_map(map);
+  EXPECT_FALSE(stored.warning.empty());
+  expect_keyframes(stored, {0, 1});
+}
+
+TEST(MapStore, LeavesOutARecordWithAFlippedBitAndKeepsTheOthers) {
+  const TemporaryFolder folder;
+  const auto map = store(folder, 3);
+  std::string bytes = read_file(map / kKeyframeFile);
+  bytes[16 + 8 + 40] ^= 1;
+  std::ofstream(map / kKeyframeFile, std::ios::binary) << bytes;
+  expect_keyframes(load_map(map), {1, 2});
+}
+
+TEST(MapStore, SurvivesAnyDamage) {
+  const TemporaryFolder folder;
+  const auto map = store(folder, 3);
+  const std::string whole = read_file(map / kKeyframeFile);
+  std::mt19937 random(5);
+  int read = 0, refused = 0;
+  for (int i = 0; i < 2000; ++i) {
+    std::string bytes = whole.substr(0, random() % 3 ? whole.size() : random() % whole.size());
+    for (unsigned flips = random() % 4; flips > 0 && !bytes.empty(); --flips) {
+      bytes[random() % bytes.size()] = static_cast<char>(random());
+    }
+    std::ofstream(map / kKeyframeFile, std::ios::binary) << bytes;
+    try {
+      EXPECT_LE(load_map(map).keyframes.size(), 3u);
+      ++read;
+    } catch (const FileError&) {
+      ++refused;
+    }
+  }
+  EXPECT_EQ(read + refused, 2000);
+  EXPECT_GT(read, 1000);
+  EXPECT_GT(refused, 20);
+}
+
+TEST(MapStore, AFullDiskLeavesTheFileAsItWas) {
+  const TemporaryFolder folder;
+  const auto map = store(folder, 2);
+  MapStore store(map);
+  const auto size = std::filesystem::file_size(map / kKeyframeFile);
+  const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit old{};
+  getrlimit(RLIMIT_FSIZE, &old);
+  const rlimit full{size + 20, old.rlim_max};
+  setrlimit(RLIMIT_FSIZE, &full);
+  EXPECT_THROW(store.append(keyframe(2)), FileError);
+  setrlimit(RLIMIT_FSIZE, &old);
+  std::signal(SIGXFSZ, old_handler);
+  EXPECT_EQ(std::filesystem::file_size(map / kKeyframeFile), size);
+  store.append(keyframe(2));
+  expect_keyframes(load_map(map), {0, 1, 2});
+}
+
+TEST(MapStore, SaysWhatIsNoMap) {
+  const TemporaryFolder folder;
+  EXPECT_THROW(load_map(folder / "none"), FileError);
+  std::ofstream(folder / kKeyframeFile) << "something else entirely";
+  EXPECT_THROW(load_map(folder.string()), FileError);
+}
+
+}  // namespace
+}  // namespace voxlist

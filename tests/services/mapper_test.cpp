@@ -1,0 +1,200 @@
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <optional>
+#include <vector>
+#include <voxlist/keyframe_t.hpp>
+#include <voxlist/localisation_t.hpp>
+#include <voxlist/map_request_t.hpp>
+#include <voxlist/map_update_t.hpp>
+#include <voxlist/pointcloud_t.hpp>
+
+#include "bus/bus.h"
+#include "bus/convert.h"
+#include "bus/health.h"
+#include "bus/map_convert.h"
+#include "services/mapper/mapper_service.h"
+#include "temporary_folder.h"
+
+namespace voxlist {
+namespace {
+
+constexpr std::int64_t kSecond_us = 1'000'000;
+
+Cloud cloud_at(std::int64_t utime_us) {
+  Cloud cloud;
+  cloud.utime_us = utime_us;
+  for (int i = 0; i < 200; ++i) cloud.points.emplace_back(2.f, 0.03f * float(i), 0.5f);
+  return cloud;
+}
+
+// The service with a folder, and a test that plays localiser and listeners.
+struct Scene {
+  explicit Scene(const std::string& folder, bool extend = true) {
+    MapperServiceConfig config;
+    config.folder = folder;
+    config.extend = extend;
+    bus.subscribe(kMapUpdate, [this](const map_update_t& m) { take(m); });
+    bus.subscribe(kKeyframe, [this](const keyframe_t& m) { keyframes.push_back(m); });
+    service.emplace(bus, health, config);
+  }
+
+  void take(const map_update_t& message) {
+    updates.push_back(message);
+    for (const MapChange& change : assembler.add(message)) apply(change, map);
+  }
+
+  void run() {
+    for (int i = 0; i < 3; ++i) {
+      bus.handle(std::chrono::milliseconds(0));
+      service->tick(now_us += 20'000);
+    }
+    bus.handle(std::chrono::milliseconds(0));
+  }
+
+  void request(std::int32_t want, std::int32_t first = 0) {
+    map_request_t message{};
+    message.want = want;
+    message.first = first;
+    bus.publish(kMapRequest, message);
+    run();
+  }
+
+  // A cloud, and what the localiser says of it.
+  void drive(std::int64_t second, const Pose2& pose,
+             std::int32_t state = localisation_t::STATE_TRACKING) {
+    bus.publish(kCloud, to_message(cloud_at(second * kSecond_us), "base", 0));
+    localisation_t message{};
+    message.utime = second * kSecond_us;
+    message.map_id = assembler.held()->map_id;
+    message.state = state;
+    message.n_modes = 1;
+    message.modes.resize(1);
+    message.modes[0].pose[0] = pose.x_m;
+    message.modes[0].pose[1] = pose.y_m;
+    message.modes[0].pose[2] = pose.yaw_rad;
+    bus.publish(kLocalisation, message);
+    run();
+  }
+
+  Bus bus{{.url = "memq://", .prefix = ""}};
+  Health health{"mapper"};
+  std::optional<MapperService> service;
+  std::int64_t now_us = 1'700'000'000 * kSecond_us;
+  MapAssembler assembler;
+  VoxelMap map;
+  std::vector<map_update_t> updates;
+  std::vector<keyframe_t> keyframes;
+};
+
+TEST(Mapper, AnswersARequestWithTheEmptyMapThatItStartsFrom) {
+  const TemporaryFolder folder;
+  Scene scene(folder.string());
+  scene.request(map_request_t::WANT_MAP);
+  ASSERT_TRUE(scene.assembler.held());
+  EXPECT_EQ(scene.assembler.held()->version, 0);
+}
+
+TEST(Mapper, AddsSureCloudsThatMovedAndAnswersEveryLocalisation) {
+  const TemporaryFolder folder;
+  Scene scene(folder.string());
+  scene.request(map_request_t::WANT_MAP);
+  scene.drive(1, {});
+  EXPECT_EQ(scene.assembler.held()->version, 1);
+  scene.drive(2, {0.1, 0.0, 0.0});
+  EXPECT_EQ(scene.assembler.held()->version, 1);
+  EXPECT_EQ(scene.assembler.held()->utime_us, 2 * kSecond_us);
+  scene.drive(3, {1.0, 0.0, 0.0}, localisation_t::STATE_AMBIGUOUS);
+  EXPECT_EQ(scene.assembler.held()->version, 1);
+  scene.drive(4, {1.0, 0.0, 0.0});
+  EXPECT_EQ(scene.assembler.held()->version, 2);
+  EXPECT_FALSE(scene.assembler.needs_request());
+
+  MapBuilder expected;
+  expected.add({to_pose3({}), cloud_at(1)});
+  expected.add({to_pose3({1.0, 0.0, 0.0}), cloud_at(4)});
+  EXPECT_EQ(scene.map.hash(), expected.map().hash());
+  ASSERT_EQ(scene.keyframes.size(), 2u);
+  EXPECT_EQ(scene.keyframes[1].index, 1);
+  EXPECT_EQ(scene.keyframes[1].utime, 4 * kSecond_us);
+}
+
+TEST(Mapper, ADeadMappersMapIsThereAgainAtItsNextStart) {
+  const TemporaryFolder folder;
+  std::optional<Scene> first(folder.string());
+  first->request(map_request_t::WANT_MAP);
+  first->drive(1, {});
+  first->drive(2, {1.0, 0.0, 0.0});
+  const auto hash = first->map.hash();
+  const auto map_id = first->assembler.held()->map_id;
+  first.reset();  // without stop(): as after kill -9
+
+  Scene second(folder.string());
+  second.request(map_request_t::WANT_MAP);
+  EXPECT_EQ(second.assembler.held()->map_id, map_id);
+  EXPECT_EQ(second.assembler.held()->version, 2);
+  EXPECT_EQ(second.map.hash(), hash);
+  second.drive(3, {2.0, 0.0, 0.0});
+  EXPECT_EQ(load_map(folder.string()).keyframes.size(), 3u);
+}
+
+TEST(Mapper, SendsKeyframesFromTheOneThatWasMissed) {
+  const TemporaryFolder folder;
+  Scene scene(folder.string());
+  scene.request(map_request_t::WANT_MAP);
+  for (int i = 0; i < 4; ++i) scene.drive(i + 1, {double(i), 0.0, 0.0});
+  scene.keyframes.clear();
+  scene.request(map_request_t::WANT_KEYFRAMES, 2);
+  ASSERT_EQ(scene.keyframes.size(), 2u);
+  EXPECT_EQ(scene.keyframes[0].index, 2);
+  scene.request(map_request_t::WANT_KEYFRAMES, -5);
+  EXPECT_EQ(scene.keyframes.size(), 6u);
+}
+
+TEST(Mapper, WritesTheMapsViewsOnCommandAndOnStop) {
+  const TemporaryFolder folder;
+  Scene scene(folder.string());
+  scene.request(map_request_t::WANT_MAP);
+  scene.drive(1, {});
+  scene.request(map_request_t::WANT_SAVE);
+  EXPECT_TRUE(std::filesystem::exists(folder / "map.png"));
+  std::filesystem::remove(folder / "map.png");
+  scene.service->stop();
+  for (const char* file : {"map.png", "map.ply", "trajectory.tum"})
+    EXPECT_TRUE(std::filesystem::exists(folder / file));
+}
+
+TEST(Mapper, OnlyServesItsMapWhenItIsNotToExtendIt) {
+  const TemporaryFolder folder;
+  {
+    Scene scene(folder.string());
+    scene.request(map_request_t::WANT_MAP);
+    scene.drive(1, {});
+  }
+  Scene scene(folder.string(), false);
+  scene.request(map_request_t::WANT_MAP);
+  scene.drive(2, {5.0, 0.0, 0.0});
+  EXPECT_EQ(scene.assembler.held()->version, 1);
+  EXPECT_EQ(scene.assembler.held()->utime_us, 2 * kSecond_us);
+}
+
+TEST(Mapper, KeepsADamagedFileAsideAndGoesOnWithTheWholeKeyframes) {
+  const TemporaryFolder folder;
+  {
+    Scene scene(folder.string());
+    scene.request(map_request_t::WANT_MAP);
+    scene.drive(1, {});
+    scene.drive(2, {1.0, 0.0, 0.0});
+  }
+  const auto file = folder / kKeyframeFile;
+  std::filesystem::resize_file(file, std::filesystem::file_size(file) - 3);
+  Scene scene(folder.string());
+  scene.request(map_request_t::WANT_MAP);
+  EXPECT_EQ(scene.assembler.held()->version, 1);
+  EXPECT_TRUE(std::filesystem::exists(folder / (std::string(kKeyframeFile) + ".damaged")));
+  scene.drive(3, {2.0, 0.0, 0.0});
+  EXPECT_TRUE(load_map(folder.string()).warning.empty());
+}
+
+}  // namespace
+}  // namespace voxlist
