@@ -15,9 +15,16 @@ octomap::point3d to_octomap(const Eigen::Vector3d& p) {
   return {f.x(), f.y(), f.z()};
 }
 
-std::string to_bt(octomap::OcTree copy) {  // a copy: writeBinary rounds the tree that it writes
+// As OctoMap's writeBinary, which also prints a line to the console each time.
+std::string to_bt(octomap::OcTree copy) {
+  copy.toMaxLikelihood();
+  copy.prune();
   std::ostringstream out;
-  copy.writeBinary(out);
+  out << "# Octomap OcTree binary file\n"
+         "# (feel free to add / change comments, but leave the first line as it is!)\n"
+         "#\nid OcTree\nsize "
+      << copy.size() << "\nres " << copy.getResolution() << "\ndata\n";
+  copy.writeBinaryData(out);
   return out.str();
 }
 

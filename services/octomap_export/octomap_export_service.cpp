@@ -42,7 +42,9 @@ void OctomapExportService::tick(std::int64_t now_us) {
   }
   if (const auto first = queue_.missing()) ask(*first, now_us);
   if (publishing_.due(now_us, kPublishPeriod_us)) publish(now_us);
-  // While it catches up, a file of an earlier run holds more than it does.
+  // While it catches up, a file of an earlier run holds more than it does: the first period starts
+  // with the service, and none ends before everything is in.
+  if (!saving_.last_us) saving_.last_us = now_us;
   const auto save_period_us = static_cast<std::int64_t>(config_.save_period_s * kSecond_us);
   if (save_period_us > 0 && queue_.is_done() && saving_.due(now_us, save_period_us)) save(now_us);
   report();
