@@ -4,6 +4,7 @@
 
 #include <exception>
 #include <filesystem>
+#include <utility>
 #include <voxlist/keyframe_t.hpp>
 #include <voxlist/map_octree_t.hpp>
 #include <voxlist/map_request_t.hpp>
