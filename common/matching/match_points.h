@@ -16,7 +16,7 @@ struct MatchPointsConfig {
   /// Most points kept; above it the fullest layers are thinned.
   int max_points = 2000;
   /// Edge of the cubes in which the scan is tested for flat-lying surfaces (m).
-  double flat_cube_m = 0.4;
+  double flat_cube_m = 0.32;
 };
 
 /// Points of a scan chosen for matching, in base, in a fixed order that does not depend on the order of the scan.

@@ -64,12 +64,12 @@ std::vector<MatchMode> refined(const SurfelMap& surfels, std::span<const Eigen::
 class SearchMatcher : public Matcher {
  public:
   SearchMatcher(const VoxelMap& map, const MatcherConfig& config)
-      : config_(config), map_(map, {.resolution_m = config.resolution_m}), surfels_(map) {}
+      : config_(config), map_(map), surfels_(map) {}
 
-  Match match(std::span<const Eigen::Vector3f> points, const std::optional<PoseWindow>& window) const override {
+  Match match(std::span<const Eigen::Vector3f> points, const std::optional<PoseWindow>& window) override {
     const MatchPoints scan = chosen(points, config_, 0.2, config_.search_points);
-    const SearchResult found =
-        search(map_, scan, window.value_or(whole_map(map_)), search_config(window.has_value()));
+    const SearchMap& map = search_map(window.has_value());
+    const SearchResult found = search(map, scan, window.value_or(whole_map(map)), search_config(window.has_value()));
     Match match;
     match.certified = found.certified;
     match.poses_examined = found.poses_examined;
@@ -81,12 +81,19 @@ class SearchMatcher : public Matcher {
     }
     const MatchPoints fine = chosen(points, config_, 0.1, config_.refine_points);
     match.modes = refined(surfels_, fine.points, std::move(candidates));
-    match.significance_log10 = log10_significance(map_.pyramid(), scan.points.size(), found.modes.front().overlap,
+    match.significance_log10 = log10_significance(map.pyramid(), scan.points.size(), found.modes.front().overlap,
                                                   found.lattice_poses);
     return match;
   }
 
  private:
+  const SearchMap& search_map(bool windowed) {
+    auto& map = windowed ? window_map_ : whole_map_;
+    if (!map) map.emplace(map_, PyramidConfig{.resolution_m = windowed ? config_.window_resolution_m : config_.resolution_m,
+                                              .levels = windowed ? 3 : 4});
+    return *map;
+  }
+
   // Within a window slips of less than a step of the robot matter; in a whole map other rooms do.
   SearchConfig search_config(bool windowed) const {
     SearchConfig search{.max_nodes = config_.max_nodes};
@@ -99,8 +106,9 @@ class SearchMatcher : public Matcher {
   }
 
   const MatcherConfig config_;
-  const SearchMap map_;
+  const VoxelMap& map_;
   const SurfelMap surfels_;
+  std::optional<SearchMap> whole_map_, window_map_;
 };
 
 class ParticleFilterMatcher : public Matcher {
@@ -111,7 +119,7 @@ class ParticleFilterMatcher : public Matcher {
         box_(map, {.resolution_m = config.resolution_m, .levels = 0}),
         surfels_(map) {}
 
-  Match match(std::span<const Eigen::Vector3f> points, const std::optional<PoseWindow>& window) const override {
+  Match match(std::span<const Eigen::Vector3f> points, const std::optional<PoseWindow>& window) override {
     const MatchPoints scan = chosen(points, config_, 0.05, config_.refine_points);
     const auto found = filter_.localise(scan.points, window.value_or(whole_map(box_)));
     Match match;

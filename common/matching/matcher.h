@@ -16,8 +16,10 @@ namespace voxlist {
 struct MatcherConfig {
   /// "search": certified branch and bound. "particle_filter": the paper's, for comparison (seconds a cloud).
   std::string engine = "search";
-  /// Cell of the tolerant map and lattice of the poses (m); refinement goes on from there.
+  /// Cell of the tolerant map and lattice of the poses (m) in a search of the whole map, and in a window around a
+  /// prediction; refinement goes on from there. Finer: fewer false modes, and the cube of the ratio slower.
   double resolution_m = 0.08;
+  double window_resolution_m = 0.16;
   /// Points farther away than this take no part (m).
   double max_range_m = 60.0;
   /// Most points that a search counts, and that a refinement uses. Changes speed, and little else.
@@ -29,7 +31,8 @@ struct MatcherConfig {
   template <class Visitor>
   void visit(Visitor& v) {
     v("engine", engine, "search (certified) or particle_filter (the paper's; seconds a cloud)");
-    v("resolution_m", resolution_m, "lattice of the poses that are searched; refined after that", 0.02, 1.0);
+    v("resolution_m", resolution_m, "lattice of poses in a search of the whole map; refined after that", 0.02, 1.0);
+    v("window_resolution_m", window_resolution_m, "lattice of poses while tracking; refined after that", 0.02, 1.0);
     v("max_range_m", max_range_m, "points farther away take no part in matching", 1.0, 500.0);
     v("search_points", search_points, "most points that a search counts: speed", 50, 20000);
     v("refine_points", refine_points, "most points that a refinement uses: speed", 50, 100000);
@@ -62,10 +65,11 @@ class Matcher {
   virtual ~Matcher() = default;
 
   /// The modes of the scan's pose within the window, or in the whole map without one. Points in base (m).
-  virtual Match match(std::span<const Eigen::Vector3f> points, const std::optional<PoseWindow>& window) const = 0;
+  virtual Match match(std::span<const Eigen::Vector3f> points, const std::optional<PoseWindow>& window) = 0;
 };
 
-/// Makes the map ready for matching. The map must outlive the matcher and stay as it is.
+/// Makes the map ready for matching, each part when it is first needed. The map must outlive the matcher and stay as
+/// it is; use the matcher from one thread.
 /// Throws std::invalid_argument on an unknown engine.
 std::unique_ptr<Matcher> make_matcher(const VoxelMap& map, const MatcherConfig& config);
 

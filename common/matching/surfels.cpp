@@ -10,45 +10,56 @@ namespace {
 // Sums over a cube's voxels, coordinates counted from the cube's lowest voxel.
 struct Moments {
   std::int64_t n = 0;
-  Eigen::Vector<std::int64_t, 3> sum = Eigen::Vector<std::int64_t, 3>::Zero();
-  Eigen::Matrix<std::int64_t, 3, 3> products = Eigen::Matrix<std::int64_t, 3, 3>::Zero();
+  std::int64_t x = 0, y = 0, z = 0;
+  std::int64_t xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
 
-  void add(std::int64_t x, std::int64_t y, std::int64_t z) {
-    const Eigen::Vector<std::int64_t, 3> v{x, y, z};
+  void add(std::int64_t vx, std::int64_t vy, std::int64_t vz) {
     ++n;
-    sum += v;
-    products += v * v.transpose();
+    x += vx, y += vy, z += vz;
+    xx += vx * vx, xy += vx * vy, xz += vx * vz;
+    yy += vy * vy, yz += vy * vz, zz += vz * vz;
+  }
+
+  Eigen::Vector3d mean() const { return Eigen::Vector3d(double(x), double(y), double(z)) / double(n); }
+
+  Eigen::Matrix3d covariance() const {
+    Eigen::Matrix3d products;
+    products << double(xx), double(xy), double(xz), double(xy), double(yy), double(yz), double(xz), double(yz), double(zz);
+    return products / double(n) - mean() * mean().transpose();
   }
 };
 
 std::optional<Surfel> fit_plane(const Voxel& cell, std::int32_t edge, const Moments& moments, double resolution_m,
                                 const SurfelConfig& config) {
   if (moments.n < config.min_voxels) return std::nullopt;
-  const double n = static_cast<double>(moments.n);
-  const Eigen::Vector3d mean = moments.sum.cast<double>() / n;
-  const Eigen::Matrix3d covariance = moments.products.cast<double>() / n - mean * mean.transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(covariance);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(moments.covariance());
   const auto deviation_m = [&](int i) { return std::sqrt(std::max(0.0, axes.eigenvalues()(i))) * resolution_m; };
   if (deviation_m(0) > config.max_thickness_m) return std::nullopt;
   // The lattice itself makes a plane one voxel thick: without it a perfect plane would have infinite flatness.
   const double lattice_m = resolution_m / std::sqrt(12.0);
   if (deviation_m(1) < config.min_flatness * std::hypot(deviation_m(0), lattice_m)) return std::nullopt;
   const Eigen::Vector3d lowest(cell.x * edge, cell.y * edge, cell.z * edge);
-  return Surfel{(lowest + mean + Eigen::Vector3d::Constant(0.5)) * resolution_m, axes.eigenvectors().col(0)};
+  return Surfel{(lowest + moments.mean() + Eigen::Vector3d::Constant(0.5)) * resolution_m, axes.eigenvectors().col(0)};
 }
 
 }  // namespace
 
 SurfelMap::SurfelMap(const VoxelMap& map, const SurfelConfig& config) {
-  const auto edge = static_cast<std::int32_t>(std::lround(config.cell_m / map.resolution_m()));
+  const double block_m = kBlockEdge * map.resolution_m();
+  const auto edge = kBlockEdge * std::max(1, static_cast<std::int32_t>(std::lround(config.cell_m / block_m)));
   cell_m_ = edge * map.resolution_m();
+  const std::int32_t blocks = edge / kBlockEdge;
   std::vector<std::pair<Voxel, Moments>> cubes;
-  map.for_each_voxel([&](const Voxel& v) {
-    const Voxel cell{floor_div(v.x, edge), floor_div(v.y, edge), floor_div(v.z, edge)};
+  for (std::size_t i = 0; i < map.block_count(); ++i) {
+    const Voxel& block = map.block_position(i);
+    const Voxel cell{floor_div(block.x, blocks), floor_div(block.y, blocks), floor_div(block.z, blocks)};
     const auto [found, added] = cells_.try_emplace(cell, static_cast<std::uint32_t>(cubes.size()));
     if (added) cubes.emplace_back(cell, Moments{});
-    cubes[found->second].second.add(v.x - cell.x * edge, v.y - cell.y * edge, v.z - cell.z * edge);
-  });
+    Moments& moments = cubes[found->second].second;
+    VoxelMap::visit_block(block, map.block(i), [&](const Voxel& v) {
+      moments.add(v.x - cell.x * edge, v.y - cell.y * edge, v.z - cell.z * edge);
+    });
+  }
   for (const auto& [cell, moments] : cubes) {
     if (const auto surfel = fit_plane(cell, edge, moments, map.resolution_m(), config)) {
       cells_[cell] = static_cast<std::uint32_t>(surfels_.size());

@@ -17,8 +17,8 @@ struct Surfel {
 };
 
 struct SurfelConfig {
-  /// Edge of the cubes that are fitted with one plane each (m).
-  double cell_m = 0.4;
+  /// Edge of the cubes that are fitted with one plane each (m); rounded to whole blocks of the map.
+  double cell_m = 0.32;
   /// Fewest voxels of a cube that make a surface.
   int min_voxels = 6;
   /// Largest standard deviation across a surface (m): rough and cluttered cubes are left out.

@@ -1,6 +1,8 @@
 #include "voxels/bit_grid.h"
 
+#include <algorithm>
 #include <bit>
+#include <cstdlib>
 
 namespace voxlist {
 
@@ -19,14 +21,21 @@ void BitGrid::set(const Voxel& v) {
 
 BitGrid BitGrid::or_shifted_x(std::span<const std::int32_t> offsets) const {
   BitGrid result(origin_, size_x(), size_y(), size_z());
-  for (std::uint32_t z = 0; z < size_z_; ++z) {
-    for (std::uint32_t y = 0; y < size_y_; ++y) {
-      const std::uint64_t* from = row(y, z);
-      std::uint64_t* to = result.row(y, z);
-      for (const std::int32_t offset : offsets) {
-        for (std::size_t w = 0; w < words_per_row_; ++w) {
-          to[w] |= bits_at(from, words_per_row_, static_cast<std::int64_t>(w) * 64 + offset);
-        }
+  const auto words = static_cast<std::int64_t>(words_per_row_);
+  // The row with as many free words on both sides as an offset can reach: no bounds to check.
+  std::int64_t margin = 0;
+  for (const std::int32_t offset : offsets) margin = std::max<std::int64_t>(margin, std::abs(offset) / 64 + 2);
+  std::vector<std::uint64_t> padded(static_cast<std::size_t>(words + 2 * margin));
+  for (std::size_t r = 0; r < std::size_t{size_y_} * size_z_; ++r) {
+    const std::uint64_t* from = words_.data() + r * words_per_row_;
+    if (std::all_of(from, from + words, [](std::uint64_t word) { return word == 0; })) continue;
+    std::copy(from, from + words, padded.begin() + margin);
+    std::uint64_t* to = result.words_.data() + r * words_per_row_;
+    for (const std::int32_t offset : offsets) {
+      const std::uint64_t* shifted = padded.data() + margin + (offset >> 6);
+      const int shift = offset & 63;
+      for (std::int64_t w = 0; w < words; ++w) {
+        to[w] |= shift == 0 ? shifted[w] : shifted[w] >> shift | shifted[w + 1] << (64 - shift);
       }
     }
   }
@@ -40,7 +49,9 @@ BitGrid BitGrid::or_shifted_y(std::span<const std::int32_t> offsets) const {
       for (const std::int32_t offset : offsets) {
         const auto source = y + static_cast<std::uint32_t>(offset);
         if (source >= size_y_) continue;
-        for (std::size_t w = 0; w < words_per_row_; ++w) result.row(y, z)[w] |= row(source, z)[w];
+        const std::uint64_t* from = row(source, z);
+        std::uint64_t* to = result.row(y, z);
+        for (std::size_t w = 0; w < words_per_row_; ++w) to[w] |= from[w];
       }
     }
   }
