@@ -76,12 +76,15 @@ int import_scans(const ImportOptions& options, Console& console) {
     }
   }
   importer.close();
-  if (importer.written().scans == 0 && !stop_requested()) {
-    throw FileError(options.scans, "has no scan that can be read");
+  if (importer.written().scans == 0) {
+    throw FileError(options.scans, stop_requested()
+                                       ? "interrupted before the first scan, nothing was written"
+                                       : "has no scan that can be read, nothing was written");
   }
   file.publish();
   console.say(summary(options, importer.written()));
   if (!omissions.empty()) console.warn("left out: " + omissions.summary());
+  if (stop_requested()) console.warn("interrupted: the log ends there");
   return stop_requested() ? kInterrupted : 0;
 }
 

@@ -52,8 +52,7 @@ std::int64_t place_all(const std::filesystem::path& table, ScanInput& input, Map
   return unknown;
 }
 
-RunFigures make_map(const MapOptions& options, MapRun& run, Console& console) {
-  ScanInput input(options.input, console);
+RunFigures make_map(const MapOptions& options, ScanInput& input, MapRun& run, Console& console) {
   RunFigures figures;
   const auto start = std::chrono::steady_clock::now();
   {
@@ -66,10 +65,10 @@ RunFigures make_map(const MapOptions& options, MapRun& run, Console& console) {
   }
   figures.elapsed_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  figures.input = options.input.string();
+  figures.input = input.path().string();
   figures.scans = input.scans();
   figures.left_out = input.omissions().total();
-  figures.data_seconds = input.seconds();
+  figures.seconds = input.seconds();
   figures.interrupted = stop_requested();
   if (!input.omissions().empty()) console.warn("left out: " + input.omissions().summary());
   return figures;
@@ -77,7 +76,7 @@ RunFigures make_map(const MapOptions& options, MapRun& run, Console& console) {
 
 void tell(const MapOptions& options, const MapRun& run, const RunFigures& figures,
           Console& console) {
-  const double factor = figures.data_seconds / std::max(figures.elapsed_seconds, 1e-9);
+  const double factor = figures.seconds / std::max(figures.elapsed_seconds, 1e-9);
   console.say(std::to_string(run.trajectory().size()) + " of " + std::to_string(figures.scans) +
               " scans placed (" + std::to_string(run.lost()) + " lost, " +
               std::to_string(run.ambiguous()) + " ambiguous, " +
@@ -85,8 +84,8 @@ void tell(const MapOptions& options, const MapRun& run, const RunFigures& figure
               std::to_string(run.builder().keyframes().size()) + " keyframes, " +
               std::to_string(run.builder().map().size()) + " voxels, hash " +
               hash_text(run.builder().map()));
-  console.say(fixed(figures.data_seconds, 1) + " s of data in " +
-              fixed(figures.elapsed_seconds, 1) + " s, " + fixed(factor, 1) + " times real time");
+  console.say(fixed(figures.seconds, 1) + " s of data in " + fixed(figures.elapsed_seconds, 1) +
+              " s, " + fixed(factor, 1) + " times real time");
   console.say((options.folder / "map.png").string());
 }
 
@@ -100,15 +99,17 @@ int map(const MapOptions& options, Console& console) {
                   static_cast<std::size_t>(options.threads));
   }
 
+  ScanInput input(options.input, console);
   MapFiles files(options.folder);
   MapRun run(settings.localiser, settings.mapper);
-  const RunFigures figures = make_map(options, run, console);
+  const RunFigures figures = make_map(options, input, run, console);
   files.write_map(run);
-  files.write_octomap(run.builder(), settings.octomap, console);
+  const bool has_octomap = files.write_octomap(run.builder(), settings.octomap, console);
   files.write_summary(run, figures);
   tell(options, run, figures, console);
-  if (stop_requested()) console.warn("interrupted: the map ends there, and there is no map.bt");
-  return stop_requested() ? kInterrupted : 0;
+  if (figures.interrupted) console.warn("interrupted: the map ends there");
+  if (!has_octomap) console.warn("interrupted: there is no map.bt");
+  return has_octomap ? 0 : kInterrupted;
 }
 
 void add_options(CLI::App& command, MapOptions& options) {

@@ -38,7 +38,7 @@ void MapFiles::write_map(const MapRun& run) const {
   const MapStore stored(folder_, map_id(map), run.builder().keyframes());
 }
 
-void MapFiles::write_octomap(const MapBuilder& builder, const OctomapConfig& config,
+bool MapFiles::write_octomap(const MapBuilder& builder, const OctomapConfig& config,
                              Console& console) const {
   OctomapBuilder octomap(config);
   Progress progress(console, "making the OctoMap");
@@ -47,15 +47,20 @@ void MapFiles::write_octomap(const MapBuilder& builder, const OctomapConfig& con
     octomap.insert(keyframes[i].T_map_base, keyframes[i].cloud);
     progress.show(static_cast<double>(i + 1) / static_cast<double>(keyframes.size()));
   }
-  if (!stop_requested()) return octomap.write_bt(folder_ / "map.bt");
+  const fs::path file = folder_ / "map.bt";
   std::error_code ignored;
-  fs::remove(folder_ / "map.bt", ignored);
+  if (stop_requested()) {
+    fs::remove(file, ignored);
+    return false;
+  }
+  octomap.write_bt(file);
+  return true;
 }
 
 void MapFiles::write_summary(const MapRun& run, const RunFigures& figures) {
   const VoxelMap& map = run.builder().map();
   const double factor =
-      figures.elapsed_seconds > 0.0 ? figures.data_seconds / figures.elapsed_seconds : 0.0;
+      figures.elapsed_seconds > 0.0 ? figures.seconds / figures.elapsed_seconds : 0.0;
   nlohmann::ordered_json json = {
       {"input", figures.input},
       {"version", VOXLIST_VERSION},
@@ -66,7 +71,7 @@ void MapFiles::write_summary(const MapRun& run, const RunFigures& figures) {
       {"without_pose", figures.without_pose},
       {"left_out", figures.left_out},
       {"keyframes", run.builder().keyframes().size()},
-      {"data_seconds", figures.data_seconds},
+      {"seconds", figures.seconds},
       {"elapsed_seconds", figures.elapsed_seconds},
       {"real_time_factor", factor},
       {"map_hash", hash_text(map)},

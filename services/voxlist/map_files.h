@@ -16,8 +16,8 @@ struct RunFigures {
   std::int64_t scans = 0;
   std::int64_t left_out = 0;      ///< could not be read
   std::int64_t without_pose = 0;  ///< not in the table of --use-poses
-  double data_seconds = 0.0;
-  double elapsed_seconds = 0.0;
+  double seconds = 0.0;           ///< of data
+  double elapsed_seconds = 0.0;   ///< of work, without writing files
   bool interrupted = false;
 };
 
@@ -31,8 +31,9 @@ class MapFiles {
   /// Writes trajectory, voxels, picture and keyframes. Throws FileError.
   void write_map(const MapRun& run) const;
 
-  /// Writes the OctoMap of the keyframes. After Ctrl-C there is none, not even an old one.
-  void write_octomap(const MapBuilder& builder, const OctomapConfig& config,
+  /// Writes the OctoMap of the keyframes. False after Ctrl-C: then there is none, not even an old
+  /// one.
+  bool write_octomap(const MapBuilder& builder, const OctomapConfig& config,
                      Console& console) const;
 
   /// Writes the summary: the folder is whole.

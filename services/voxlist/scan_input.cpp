@@ -14,14 +14,14 @@ ScanInput::ScanInput(std::filesystem::path path, Console& console)
 std::optional<Scan> ScanInput::next() {
   while (!stop_requested()) {
     auto record = recording_->next();
-    if (!record && scans_ == 0) {
-      throw FileError(path_, "has no scan that can be read, give a folder of scans or a log");
-    }
-    if (!record) return std::nullopt;
+    if (!record) break;
     auto scan = std::visit([this](auto& message) { return take(message); }, *record);
     if (scan) return scan;
   }
-  return std::nullopt;
+  if (scans_ > 0) return std::nullopt;
+  throw FileError(path_, stop_requested()
+                             ? "interrupted before the first scan, nothing was written"
+                             : "has no scan that can be read, give a folder of scans or a log");
 }
 
 std::optional<Scan> ScanInput::take(CloudRecord& record) {

@@ -28,7 +28,7 @@ class ScanInput {
   ScanInput(std::filesystem::path path, Console& console);
 
   /// The next scan; nothing at the end, or after Ctrl-C. What cannot be read is left out. Throws
-  /// FileError when not one scan could be read.
+  /// FileError when there was not one scan.
   std::optional<Scan> next();
 
   /// How far it has come, 0..1.

@@ -12,6 +12,7 @@ void request_stop(int) { g_stop_requested = 1; }
 }  // namespace
 
 void stop_on_interrupt() {
+  g_stop_requested = 0;
   struct sigaction action = {};
   action.sa_handler = request_stop;
   action.sa_flags = static_cast<int>(SA_RESETHAND);

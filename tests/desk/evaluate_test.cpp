@@ -1,0 +1,53 @@
+#include <gmock/gmock.h>
+
+#include <filesystem>
+
+#include "desk/scan_set.h"
+
+namespace voxlist {
+namespace {
+
+using testing::ContainsRegex;
+using testing::HasSubstr;
+
+class Evaluate : public testing::Test {
+ protected:
+  Evaluate() {
+    test::write_text(work_ / "poses.csv", "t,x,y,yaw\n0,0,0,0\n1,1,0,0\n2,2,0,0\n3,3,0,0\n");
+    // The last position is 0.4 m to the side.
+    test::write_text(work_ / "trajectory.tum",
+                     "0 0 0 0 0 0 0 1\n1 1 0 0 0 0 0 1\n2 2 0 0 0 0 0 1\n3 3 0.4 0 0 0 0 1\n");
+  }
+
+  test::WorkFolder work_;
+};
+
+TEST_F(Evaluate, PrintsAbsoluteAndRelativeErrors) {
+  const test::DeskRun run = test::run({"evaluate", work_ / "trajectory.tum", work_ / "poses.csv"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("4 of 4 poses matched by time"));
+  EXPECT_THAT(run.out,
+              ContainsRegex("from the first pose on\n  position \\(m\\) +0.2000 +0.1000 "));
+  EXPECT_THAT(run.out, ContainsRegex("last position \\(m\\) +0.4000\n"));
+  EXPECT_THAT(run.out, ContainsRegex("pose to pose \\(m\\) +0.2309 +0.1333 +0.0000 +0.4000\n"));
+}
+
+TEST_F(Evaluate, DrawsBesideTheTrajectoryOrWhereItIsTold) {
+  EXPECT_EQ(test::run({"evaluate", work_ / "trajectory.tum", work_ / "poses.csv"}).exit_code, 0);
+  EXPECT_GT(std::filesystem::file_size(work_ / "evaluation.png"), 1000u);
+  EXPECT_EQ(test::run({"evaluate", work_ / "trajectory.tum", work_ / "poses.csv", "-o",
+                       work_ / "plot.png"})
+                .exit_code,
+            0);
+  EXPECT_EQ(test::read_text(work_ / "plot.png"), test::read_text(work_ / "evaluation.png"));
+}
+
+TEST_F(Evaluate, SaysWhenNothingBelongsTogether) {
+  test::write_text(work_ / "poses.csv", "t,x,y,yaw,scan\n1000,0,0,0,77\n1001,1,0,0,78\n");
+  const test::DeskRun run = test::run({"evaluate", work_ / "trajectory.tum", work_ / "poses.csv"});
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.err, HasSubstr("poses.csv: has no pose for any of"));
+}
+
+}  // namespace
+}  // namespace voxlist

@@ -1,0 +1,79 @@
+#include <gmock/gmock.h>
+
+#include <sstream>
+
+#include "desk/scan_set.h"
+#include "io/csv_table.h"
+#include "io/pose_file.h"
+
+namespace voxlist {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+class Localise : public testing::Test {
+ protected:
+  Localise() {
+    test::make_scan_set(scans_);
+    EXPECT_EQ(test::run({"map", scans_, "-o", map_, "--use-poses", scans_ + "/poses.csv",
+                         "--octomap-resolution", "1"})
+                  .exit_code,
+              0);
+  }
+
+  test::DeskRun localise(const std::string& input) {
+    return test::run({"localise", map_, input, "-o", result_});
+  }
+
+  test::WorkFolder work_;
+  const std::string scans_ = work_ / "scans", map_ = work_ / "map", result_ = work_ / "result.csv";
+};
+
+TEST_F(Localise, WritesOneRowAScanUnderTheAgreedHeader) {
+  const test::DeskRun run = localise(scans_);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, StartsWith("12 scans: "));
+  const auto lines = test::read_lines(result_);
+  ASSERT_EQ(lines.size(), 1u + test::kScans);
+  EXPECT_EQ(lines[0], "index,state,x_m,y_m,yaw_rad,overlap,confidence,elapsed_ms");
+  for (int scan = 0; scan < test::kScans; ++scan)
+    EXPECT_THAT(lines[static_cast<std::size_t>(scan) + 1], StartsWith(std::to_string(scan) + ","));
+}
+
+TEST_F(Localise, IsRightWhereItSaysThatItIsSure) {
+  ASSERT_EQ(localise(scans_).exit_code, 0);
+  const CsvTable table(result_);
+  const PoseTable found = read_pose_csv(result_), truth = read_pose_csv(scans_ + "/poses.csv");
+  int sure = 0;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    if (table.text(row, *table.column({"state"})) != "TRACKING") continue;
+    ++sure;
+    const Pose2 pose = to_pose2(found.rows[row].pose), expected = to_pose2(truth.rows[row].pose);
+    EXPECT_LT(distance_m(pose, expected), 0.1) << row;
+    EXPECT_LT(turn_rad(pose, expected), 0.05) << row;
+  }
+  EXPECT_GT(sure, 0);
+}
+
+TEST_F(Localise, LeavesThePoseOfAScanEmptyThatFitsNowhere) {
+  test::write_text(scans_ + "/scan_3.ply",
+                   "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\n"
+                   "property float z\nend_header\n");
+  ASSERT_EQ(localise(scans_).exit_code, 0);
+  EXPECT_THAT(test::read_lines(result_)[4], StartsWith("3,LOST,,,,0.000000,0.000000,"));
+}
+
+TEST_F(Localise, KeepsTheNumbersOfScansAfterADamagedOne) {
+  test::write_text(scans_ + "/scan_3.ply", "damaged");
+  const test::DeskRun run = localise(scans_);
+  ASSERT_EQ(run.exit_code, 0);
+  EXPECT_THAT(run.err, HasSubstr("left out: 1 unreadable"));
+  const auto lines = test::read_lines(result_);
+  ASSERT_EQ(lines.size(), 0u + test::kScans);
+  EXPECT_THAT(lines[3], StartsWith("2,"));
+  EXPECT_THAT(lines[4], StartsWith("4,"));
+}
+
+}  // namespace
+}  // namespace voxlist

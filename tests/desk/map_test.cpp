@@ -1,0 +1,192 @@
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "desk/scan_set.h"
+#include "io/cloud_file.h"
+#include "io/evaluation.h"
+#include "io/trajectory.h"
+#include "mapping/map_store.h"
+#include "services/voxlist/console.h"
+#include "services/voxlist/desk.h"
+#include "services/voxlist/stop.h"
+
+namespace voxlist {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using Arguments = std::vector<std::string>;
+
+class Map : public testing::Test {
+ protected:
+  Map() { test::make_scan_set(scans_); }
+
+  // Coarse: the OctoMap takes longer than all else.
+  test::DeskRun map(const std::string& input, const std::string& folder, Arguments more = {}) {
+    Arguments arguments = {"map", input, "-o", folder, "--octomap-resolution", "0.4"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return test::run(arguments);
+  }
+
+  static nlohmann::json summary(const std::string& folder) {
+    return nlohmann::json::parse(test::read_text(folder + "/summary.json"));
+  }
+
+  std::string import() {
+    EXPECT_EQ(test::run({"import", scans_, "-o", work_ / "log"}).exit_code, 0);
+    return work_ / "log";
+  }
+
+  test::WorkFolder work_;
+  const std::string scans_ = work_ / "scans", folder_ = work_ / "map";
+};
+
+TEST_F(Map, PlacesEveryScanOfASimulatedDriveNearItsTruth) {
+  const test::DeskRun run = map(scans_, folder_);
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const auto errors =
+      evaluate(read_tum(folder_ + "/trajectory.tum"), read_pose_csv(scans_ + "/poses.csv"));
+  ASSERT_TRUE(errors);
+  EXPECT_EQ(errors->matched, static_cast<std::size_t>(test::kScans));
+  EXPECT_LT(errors->aligned_m.rmse, 0.05);
+}
+
+TEST_F(Map, TellsTheSameInTheSummaryAsInTheFiles) {
+  ASSERT_EQ(map(scans_, folder_).exit_code, 0);
+  const auto json = summary(folder_);
+  EXPECT_EQ(json["scans"], test::kScans);
+  EXPECT_EQ(json["placed"], test::kScans);
+  EXPECT_EQ(json["left_out"], 0);
+  EXPECT_EQ(json["seconds"], test::kScans - 1.0);
+  EXPECT_GT(json["real_time_factor"], 0.0);
+  EXPECT_EQ(json["voxels"], read_cloud_file(folder_ + "/map.ply").points.size());
+  const StoredMap stored = load_map(folder_);
+  EXPECT_EQ(json["keyframes"], stored.keyframes.size());
+  EXPECT_GT(stored.keyframes.size(), 1u);
+  EXPECT_EQ(stored.warning, "");
+  MapBuilder again;
+  for (const Keyframe& keyframe : stored.keyframes) again.add(keyframe);
+  EXPECT_EQ(again.map().hash(), std::stoull(json["map_hash"].get<std::string>(), nullptr, 16));
+  EXPECT_GT(fs::file_size(folder_ + "/map.png"), 1000u);
+}
+
+TEST_F(Map, IsTheSameFromALogAsFromItsFolder) {
+  ASSERT_EQ(map(import(), folder_).exit_code, 0);
+  ASSERT_EQ(map(scans_, work_ / "other").exit_code, 0);
+  EXPECT_EQ(summary(folder_)["map_hash"], summary(work_ / "other")["map_hash"]);
+  for (const std::string file : {"/trajectory.tum", "/keyframes.voxlist", "/map.bt", "/map.ply"})
+    EXPECT_EQ(test::read_text(folder_ + file), test::read_text(work_ / "other" + file)) << file;
+}
+
+TEST_F(Map, IsTheSameWhateverTheNumberOfThreads) {
+  ASSERT_EQ(map(scans_, folder_, {"--threads", "1"}).exit_code, 0);
+  const std::string first = test::read_text(folder_ + "/keyframes.voxlist");
+  ASSERT_EQ(map(scans_, folder_, {"--threads", "4"}).exit_code, 0);
+  EXPECT_EQ(test::read_text(folder_ + "/keyframes.voxlist"), first);
+}
+
+TEST_F(Map, PutsScansAtGivenPosesAndSkipsThoseWithout) {
+  test::write_text(work_ / "given.csv",
+                   "scan,x,y,z,qx,qy,qz,qw\n2,1,2,3,0,0,0.6,0.8\n5,4,5,6,0,0,0,1\n");
+  const test::DeskRun run = map(scans_, folder_, {"--use-poses", work_ / "given.csv"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto trajectory = read_tum(folder_ + "/trajectory.tum");
+  ASSERT_EQ(trajectory.size(), 2u);
+  EXPECT_EQ(trajectory[0].utime_us, 3'000'000);
+  EXPECT_TRUE(trajectory[0].pose.translation().isApprox(Eigen::Vector3d(1.0, 2.0, 3.0)));
+  EXPECT_NEAR(to_pose2(trajectory[0].pose).yaw_rad, 2.0 * std::atan2(0.6, 0.8), 1e-9);
+  EXPECT_EQ(load_map(folder_).keyframes.size(), 2u);
+  EXPECT_EQ(summary(folder_)["without_pose"], test::kScans - 2);
+}
+
+TEST_F(Map, FindsGivenPosesForALogByTime) {
+  test::write_text(work_ / "given.csv", "t,x,y,yaw\n3.004,1,2,0.5\n4.5,9,9,0\n");
+  ASSERT_EQ(map(import(), folder_, {"--use-poses", work_ / "given.csv"}).exit_code, 0);
+  const auto trajectory = read_tum(folder_ + "/trajectory.tum");
+  ASSERT_EQ(trajectory.size(), 1u);
+  EXPECT_EQ(trajectory[0].utime_us, 3'000'000);
+}
+
+TEST_F(Map, RefusesGivenPosesOfAnotherRun) {
+  test::write_text(work_ / "given.csv", "t,x,y,yaw\n1000,1,2,0.5\n");
+  const test::DeskRun run = map(import(), folder_, {"--use-poses", work_ / "given.csv"});
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.err, HasSubstr("matches none of the scans"));
+}
+
+TEST_F(Map, TakesTheRobotsSettingsAndLeavesKeysOfTheServicesToThem) {
+  test::write_text(work_ / "robot.toml",
+                   "[bus]\nprefix = 'a/'\n[mapper]\nfolder = 'x'\nmin_distance_m = 100\n"
+                   "min_turn_deg = 180\n");
+  ASSERT_EQ(map(scans_, folder_, {"--config", work_ / "robot.toml"}).exit_code, 0);
+  EXPECT_EQ(summary(folder_)["keyframes"], 1);
+  test::write_text(work_ / "robot.toml", "[mapper]\nmax_range_m = -1\n");
+  const test::DeskRun run = map(scans_, folder_, {"--config", work_ / "robot.toml"});
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.err, HasSubstr("robot.toml:2: mapper.max_range_m is -1"));
+}
+
+TEST_F(Map, ReplacesItsOwnFilesAndLeavesOthersAlone) {
+  fs::create_directory(folder_);
+  test::write_text(folder_ + "/summary.json", "old");
+  test::write_text(folder_ + "/notes.txt", "mine");
+  ASSERT_EQ(map(scans_, folder_).exit_code, 0);
+  EXPECT_EQ(summary(folder_)["scans"], test::kScans);
+  EXPECT_EQ(test::read_text(folder_ + "/notes.txt"), "mine");
+  const fs::directory_iterator files(folder_);
+  EXPECT_EQ(std::distance(begin(files), end(files)), 7);
+}
+
+TEST_F(Map, GoesOnAfterADamagedScan) {
+  test::write_text(scans_ + "/scan_3.ply", "damaged");
+  const test::DeskRun run = map(scans_, folder_);
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_THAT(run.err, HasSubstr("scan_3.ply"));
+  EXPECT_EQ(summary(folder_)["placed"], test::kScans - 1);
+  EXPECT_EQ(summary(folder_)["left_out"], 1);
+}
+
+TEST_F(Map, IsReadByTheToolsOfOctomap) {
+  if (std::system("command -v convert_octree bt2vrml >/dev/null") != 0)
+    GTEST_SKIP() << "the package octomap-tools is not installed";
+  ASSERT_EQ(map(scans_, folder_).exit_code, 0);
+  const std::string bt = folder_ + "/map.bt", quiet = " >" + (work_ / "printed") + " 2>&1";
+  EXPECT_EQ(std::system(("convert_octree " + bt + " " + (work_ / "map.ot") + quiet).c_str()), 0);
+  EXPECT_EQ(std::system(("bt2vrml " + bt + quiet).c_str()), 0);
+  EXPECT_GT(fs::file_size(bt + ".wrl"), 1000u);
+}
+
+// Presses Ctrl-C when the first thing is written.
+class InterruptingBuffer : public std::stringbuf {
+  std::streamsize xsputn(const char* text, std::streamsize size) override {
+    if (!stop_requested()) std::raise(SIGINT);
+    return std::stringbuf::xsputn(text, size);
+  }
+};
+
+TEST_F(Map, KeepsWhatItHasWhenInterrupted) {
+  test::write_text(scans_ + "/scan_3.ply", "damaged");
+  fs::create_directory(folder_);
+  test::write_text(folder_ + "/map.bt", "of another map");
+  std::ostringstream out;
+  InterruptingBuffer buffer;
+  std::ostream err(&buffer);
+  Console console(out, err, false);
+  stop_on_interrupt();
+  const int exit_code = run_desk({"map", scans_, "-o", folder_}, console);
+  stop_on_interrupt();
+  EXPECT_EQ(exit_code, kInterrupted);
+  EXPECT_EQ(summary(folder_)["placed"], 3);
+  EXPECT_EQ(summary(folder_)["interrupted"], true);
+  EXPECT_EQ(load_map(folder_).warning, "");
+  EXPECT_FALSE(fs::exists(folder_ + "/map.bt"));
+}
+
+}  // namespace
+}  // namespace voxlist

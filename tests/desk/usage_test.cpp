@@ -1,0 +1,104 @@
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <sstream>
+
+#include "desk/scan_set.h"
+#include "services/voxlist/console.h"
+#include "services/voxlist/progress.h"
+
+namespace voxlist {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+class Usage : public testing::Test {
+ protected:
+  // The tool must end with code 1 and one line on stderr that has the text.
+  void expect_refusal(std::vector<std::string> arguments, const std::string& text) {
+    const test::DeskRun run = test::run(std::move(arguments));
+    EXPECT_EQ(run.exit_code, 1);
+    EXPECT_EQ(run.out, "");
+    EXPECT_THAT(run.err, AllOf(StartsWith("voxlist: "), HasSubstr(text)));
+    EXPECT_EQ(std::ranges::count(run.err, '\n'), 1) << run.err;
+  }
+
+  test::WorkFolder work_;
+};
+
+TEST_F(Usage, IsExplainedWithExamplesByEachCommand) {
+  for (const std::string command : {"import", "map", "localise", "evaluate"}) {
+    const test::DeskRun run = test::run({command, "--help"});
+    EXPECT_EQ(run.exit_code, 0);
+    EXPECT_THAT(run.out, HasSubstr("  voxlist " + command + " "));
+    EXPECT_EQ(run.err, "");
+  }
+}
+
+TEST_F(Usage, ThatIsWrongHasAnExitCodeOfItsOwn) {
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{}, {"nonsense"}, {"map", "x"}, {"map", "x", "-o", "y", "--z"}}) {
+    const test::DeskRun run = test::run(arguments);
+    EXPECT_GT(run.exit_code, 100);
+    EXPECT_THAT(run.err, HasSubstr("--help"));
+  }
+}
+
+TEST_F(Usage, SaysThatAnInputIsNotThere) {
+  for (const std::string command : {"import", "map"}) {
+    expect_refusal({command, work_ / "none", "-o", work_ / "out"}, work_ / "none");
+    EXPECT_FALSE(std::filesystem::exists(work_ / "out"));
+  }
+}
+
+TEST_F(Usage, SaysThatAFolderHasNoScans) {
+  std::filesystem::create_directory(work_ / "empty");
+  for (const std::string command : {"import", "map"}) {
+    expect_refusal({command, work_ / "empty", "-o", work_ / "out"}, "has no scans");
+  }
+}
+
+TEST_F(Usage, SaysThatAFileIsNoLog) {
+  test::write_text(work_ / "letter.txt", "Dear robot,\n");
+  const test::DeskRun run = test::run({"map", work_ / "letter.txt", "-o", work_ / "out"});
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.err, HasSubstr("letter.txt: is no LCM log"));
+  test::write_text(work_ / "nothing", "");
+  expect_refusal({"map", work_ / "nothing", "-o", work_ / "out"}, "is no LCM log");
+}
+
+TEST_F(Usage, SaysThatTheOutputCannotBeWritten) {
+  test::make_scan_set(work_ / "scans");
+  test::write_text(work_ / "file", "");
+  expect_refusal({"import", work_ / "scans", "-o", work_ / "none/log"}, work_ / "none/log");
+  expect_refusal({"import", work_ / "scans", "-o", work_ / "scans"}, "no regular file");
+  expect_refusal({"map", work_ / "scans", "-o", work_ / "file"}, "cannot be made a folder");
+}
+
+TEST_F(Usage, SaysThatAMapIsNone) {
+  test::make_scan_set(work_ / "scans");
+  expect_refusal({"localise", work_ / "scans", work_ / "scans", "-o", work_ / "result.csv"},
+                 "keyframes.voxlist");
+  EXPECT_FALSE(std::filesystem::exists(work_ / "result.csv"));
+}
+
+TEST(Console, DrawsOverItselfOnATerminalAndClearsBeforeALine) {
+  std::ostringstream out, err;
+  Console console(out, err, true);
+  console.draw("half");
+  console.warn("careful");
+  EXPECT_EQ(err.str(), "\rhalf\x1b[K\r\x1b[K\rvoxlist: careful\n");
+}
+
+TEST(Progress, IsSilentAboutShortWork) {
+  std::ostringstream out, err;
+  Console console(out, err, true);
+  Progress(console, "working").show(0.5);
+  EXPECT_EQ(err.str(), "");
+}
+
+}  // namespace
+}  // namespace voxlist
