@@ -41,16 +41,18 @@ RowOfScan match_numbers(const PoseTable& poses) {
 class LogRecording : public Recording {
  public:
   LogRecording(const std::filesystem::path& path, Omissions& omissions)
-      : path_(path), omissions_(omissions), log_(path.string()) {}
+      : path_(path), omissions_(omissions), log_(path.string()) {
+    if (!EventLogReader(path.string()).next()) {
+      throw FileError(path, "is no LCM log, give one or a folder of scans");
+    }
+  }
 
   std::optional<Record> next() override {
     while (auto event = log_.next()) {
-      ++events_;
       tell_damage();
       if (auto record = read(*event)) return record;
     }
     tell_damage();
-    if (events_ == 0) throw FileError(path_, "is no LCM log, give one or a folder of scans");
     return std::nullopt;
   }
 
@@ -90,7 +92,7 @@ class LogRecording : public Recording {
   const std::filesystem::path path_;
   Omissions& omissions_;
   EventLogReader log_;
-  std::int64_t events_ = 0, clouds_ = 0, damage_told_ = 0;
+  std::int64_t clouds_ = 0, damage_told_ = 0;
 };
 
 }  // namespace

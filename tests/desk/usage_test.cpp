@@ -63,11 +63,10 @@ TEST_F(Usage, SaysThatAFolderHasNoScans) {
 
 TEST_F(Usage, SaysThatAFileIsNoLog) {
   test::write_text(work_ / "letter.txt", "Dear robot,\n");
-  const test::DeskRun run = test::run({"map", work_ / "letter.txt", "-o", work_ / "out"});
-  EXPECT_EQ(run.exit_code, 1);
-  EXPECT_THAT(run.err, HasSubstr("letter.txt: is no LCM log"));
+  expect_refusal({"map", work_ / "letter.txt", "-o", work_ / "out"}, "letter.txt: is no LCM log");
   test::write_text(work_ / "nothing", "");
   expect_refusal({"map", work_ / "nothing", "-o", work_ / "out"}, "is no LCM log");
+  EXPECT_FALSE(std::filesystem::exists(work_ / "out"));
 }
 
 TEST_F(Usage, SaysThatTheOutputCannotBeWritten) {
