@@ -25,10 +25,13 @@ constexpr double kDoubtfulFitShare = 0.8;
 constexpr double kWindow_m = 0.4, kWindow_rad = 0.3;
 constexpr double kWindowShare = 0.2;
 
-// A heavy-tailed prior on the distance from the prediction: decides between poses that fit alike.
-double prior_cost(const Pose2& pose, const Pose2& predicted) {
+// A heavy-tailed prior on the distance from the prediction: decides between poses that fit alike. Odometry is worth
+// more than a guess from the last step.
+constexpr double kGuessWeight = 0.08, kOdometryWeight = 0.2;
+
+double prior_cost(const Pose2& pose, const Pose2& predicted, double weight) {
   const double d = distance_m(pose, predicted) / 0.5, turn = turn_rad(pose, predicted) / 0.5;
-  return 0.05 * std::log1p(d * d + turn * turn);
+  return weight * std::log1p(d * d + turn * turn);
 }
 
 Localisation from_match(const Cloud& cloud, const Match& match) {
@@ -140,13 +143,19 @@ Localisation Localiser::track(const Cloud& cloud, const std::optional<Pose2>& T_
     const double dt_s = std::clamp(static_cast<double>(cloud.utime_us - track_->utime_us) * 1e-6, 0.1, 3.0);
     const double reach_m = half_m + config_.max_speed_mps * dt_s;
     const double reach_rad = kWindow_rad + config_.max_turn_rate_dps * kRadiansPerDegree * dt_s;
-    match = matcher().match(cloud.points, PoseWindow{predicted, reach_m, reach_m, reach_rad});
+    const Match wide = matcher().match(cloud.points, PoseWindow{predicted, reach_m, reach_m, reach_rad});
+    match.modes.insert(match.modes.end(), wide.modes.begin(), wide.modes.end());
+    match.certified = match.certified && wide.certified;
+    match.poses_examined += wide.poses_examined;
   }
 
   Localisation result = from_match(cloud, match);
   if (result.modes.empty()) return result;
   std::size_t best = 0;
-  const auto score = [&](std::size_t i) { return match.modes[i].fit - prior_cost(match.modes[i].pose, predicted); };
+  const double prior = track_->T_odom_base && T_odom_base ? kOdometryWeight : kGuessWeight;
+  const auto score = [&](std::size_t i) {
+    return match.modes[i].fit - prior_cost(match.modes[i].pose, predicted, prior);
+  };
   for (std::size_t i = 1; i < match.modes.size(); ++i) {
     if (score(i) > score(best)) best = i;
   }

@@ -46,15 +46,18 @@ LocaliserService::LocaliserService(Bus& bus, Health& health, const LocaliserServ
     : bus_(bus), health_(health), config_(config), localiser_(map_, config.localiser) {
   bus_.subscribe(kOdometry, [this](const pose_t& message) { take_odometry(message); });
   bus_.subscribe(kMapUpdate, [this](const map_update_t& message) { take_map(message); });
-  bus_.subscribe(kCloud, [this](const pointcloud_t& message) { take_cloud(message); }, Delivery::kLatest);
+  bus_.subscribe(kCloud, [this](const pointcloud_t& message) { take_cloud(message); });
 }
 
 void LocaliserService::take_cloud(const pointcloud_t& message) {
   auto received = from_message(message);
   if (received.dropped_points > 0) health_.count("CLOUD/dropped_points", received.dropped_points);
   if (!received.cloud) return health_.count("CLOUD/" + received.refusal);
-  if (waiting_) health_.count("CLOUD/superseded_while_waiting");
-  waiting_ = Waiting{std::move(*received.cloud), bus_.arrival_utime_us()};
+  waiting_.push_back({std::move(*received.cloud), bus_.arrival_utime_us()});
+  if (waiting_.size() > static_cast<std::size_t>(config_.max_waiting_clouds)) {
+    waiting_.pop_front();
+    health_.count("CLOUD/dropped_while_waiting");
+  }
 }
 
 void LocaliserService::take_odometry(const pose_t& message) {
@@ -79,11 +82,11 @@ void LocaliserService::take_map(const map_update_t& message) {
 
 void LocaliserService::tick(std::int64_t now_us) {
   if (assembler_.needs_request()) request_map(now_us);
-  if (!waiting_) return;
+  if (waiting_.empty()) return;
   if (unanswered_utime_us_ && !unanswered_since_us_) unanswered_since_us_ = now_us;
   if (!map_is_due(now_us)) return;
-  const Waiting waiting = std::move(*waiting_);
-  waiting_.reset();
+  const Waiting waiting = std::move(waiting_.front());
+  waiting_.pop_front();
   localise(waiting.cloud);
   health_.add_latency_us(std::max<std::int64_t>(0, now_us - waiting.arrival_us));
 }

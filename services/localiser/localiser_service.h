@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <optional>
 
 #include "bus/map_chunks.h"
@@ -18,11 +19,13 @@ class pointcloud_t;
 /// Settings of the localiser.
 struct LocaliserServiceConfig {
   double map_wait_s = 0.5;
+  int max_waiting_clouds = 3;
   LocaliserConfig localiser;
 
   template <class Visitor>
   void visit(Visitor& v) {
     v("map_wait_s", map_wait_s, "longest wait for the mapper's word on the last cloud before the next is matched", 0.0, 10.0);
+    v("max_waiting_clouds", max_waiting_clouds, "clouds that may wait; then the oldest is dropped. 1: always the newest, for maps that are there; more: a busy second leaves no hole in a new one", 1, 100);
     localiser.visit(v);
   }
 };
@@ -30,7 +33,7 @@ struct LocaliserServiceConfig {
 /// CLOUD, ODOMETRY and MAP_UPDATE in; POSE, LOCALISATION and MAP_REQUEST out.
 ///
 /// A cloud waits until the mapper has decided on the cloud before it (bounded by map_wait_s): so a run gives the same
-/// map as its replay, and as the desk tool. Only the newest cloud waits; older ones are counted as superseded.
+/// map as its replay, and as the desk tool. A few clouds may wait; beyond that the oldest is dropped and counted.
 class LocaliserService {
  public:
   LocaliserService(Bus& bus, Health& health, const LocaliserServiceConfig& config);
@@ -59,7 +62,7 @@ class LocaliserService {
   Localiser localiser_;
   MapAssembler assembler_;
   OdometryBuffer odometry_;
-  std::optional<Waiting> waiting_;
+  std::deque<Waiting> waiting_;  // oldest first
   std::optional<std::int64_t> last_request_us_;
   // The last cloud that the mapper may have added, and since when its answer is awaited.
   std::optional<std::int64_t> unanswered_utime_us_;

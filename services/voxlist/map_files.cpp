@@ -1,5 +1,6 @@
 #include "services/voxlist/map_files.h"
 
+#include <cstdio>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <utility>

@@ -1,5 +1,6 @@
 #include "services/voxlist/text.h"
 
+#include <cstdlib>
 #include <iomanip>
 #include <sstream>
 

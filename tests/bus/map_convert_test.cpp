@@ -17,7 +17,9 @@ TEST(MapConvert, AWholeMapAndItsIncrementsCarryTheMapOver) {
   EXPECT_EQ(received.hash(), sent.hash());
 
   sent.insert({1000, -1000, 7});
-  MapChange increment{.version = 1, .base_version = 0, .resolution_m = sent.resolution_m()};
+  MapChange increment = whole;
+  increment.version = 1;
+  increment.base_version = 0;
   increment.blocks = to_messages(sent, {block_of({1000, -1000, 7}), {9999, 9999, 9999}});
   EXPECT_EQ(increment.blocks.size(), 1u);
   EXPECT_TRUE(apply(increment, received));
