@@ -78,6 +78,7 @@ struct Localiser::Track {
   // Motion of the last step in base, and how long it took: the prediction without odometry.
   Pose2 step;
   double step_s = 0.0;
+  // Of the last cloud; 0: it began the map, so there is nothing to compare with.
   double fit = 0.0;
 
   Pose2 predict(std::int64_t now_us, const std::optional<Pose2>& T_odom_now) const {
@@ -139,7 +140,7 @@ Localisation Localiser::track(const Cloud& cloud, const std::optional<Pose2>& T_
   Match match = matcher().match(
       cloud.points, PoseWindow{predicted, half_m, half_m, kWindow_rad + kWindowShare * turned_rad});
   const auto best_fit = [](const Match& m) { return m.modes.empty() ? 0.0 : m.modes.front().fit; };
-  if (best_fit(match) < kDoubtfulFitShare * track_->fit) {
+  if (track_->fit == 0.0 || best_fit(match) < kDoubtfulFitShare * track_->fit) {
     const double dt_s = std::clamp(static_cast<double>(cloud.utime_us - track_->utime_us) * 1e-6, 0.1, 3.0);
     const double reach_m = half_m + config_.max_speed_mps * dt_s;
     const double reach_rad = kWindow_rad + config_.max_turn_rate_dps * kRadiansPerDegree * dt_s;
