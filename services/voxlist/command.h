@@ -19,5 +19,6 @@ void add_import(CLI::App& program, Command& chosen);
 void add_map(CLI::App& program, Command& chosen);
 void add_localise(CLI::App& program, Command& chosen);
 void add_evaluate(CLI::App& program, Command& chosen);
+void add_watch(CLI::App& program, Command& chosen);
 
 }  // namespace voxlist
