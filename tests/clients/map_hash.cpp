@@ -1,0 +1,19 @@
+// Writes what a map folder's keyframes make: "map ID, N keyframes, hash HASH", as `voxlist map`
+// puts the hash. Usage: map_hash FOLDER
+#include <cstdio>
+#include <exception>
+
+#include "mapping/map_store.h"
+
+int main(int argc, char** argv) try {
+  if (argc != 2) return 2;
+  voxlist::StoredMap stored = voxlist::load_map(argv[1]);
+  voxlist::MapBuilder builder;
+  for (voxlist::Keyframe& keyframe : stored.keyframes) builder.add(std::move(keyframe));
+  std::printf("map %lld, %zu keyframes, hash %016llx\n", static_cast<long long>(stored.map_id),
+              builder.keyframes().size(), static_cast<unsigned long long>(builder.map().hash()));
+  return 0;
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "map_hash: %s\n", error.what());
+  return 1;
+}
