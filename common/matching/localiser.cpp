@@ -147,6 +147,7 @@ Localisation Localiser::track(const Cloud& cloud, const std::optional<Pose2>& T_
     const Match wide = matcher().match(cloud.points, PoseWindow{predicted, reach_m, reach_m, reach_rad});
     match.modes.insert(match.modes.end(), wide.modes.begin(), wide.modes.end());
     match.certified = match.certified && wide.certified;
+    match.complete = match.complete && wide.complete;
     match.poses_examined += wide.poses_examined;
   }
 
@@ -176,7 +177,7 @@ Localisation Localiser::locate(const Cloud& cloud, double& fit) {
   fit = match.modes.front().fit;
   const double second = match.modes.size() > 1 ? match.modes[1].fit : 0.0;
   const double ratio = fit > 0.0 ? second / fit : 1.0;
-  const bool sure = match.certified && ratio <= kSureFitRatio && match.modes.front().overlap >= kSureOverlap;
+  const bool sure = match.complete && ratio <= kSureFitRatio && match.modes.front().overlap >= kSureOverlap;
   result.state = sure ? LocalisationState::kTracking : LocalisationState::kAmbiguous;
   result.confidence = confidence_of(ratio);
   return result;

@@ -72,6 +72,7 @@ class SearchMatcher : public Matcher {
     const SearchResult found = search(map, scan, window.value_or(whole_map(map)), search_config(window.has_value()));
     Match match;
     match.certified = found.certified;
+    match.complete = found.complete;
     match.poses_examined = found.poses_examined;
     if (found.modes.empty()) return match;
     std::vector<MatchMode> candidates;
@@ -125,6 +126,7 @@ class ParticleFilterMatcher : public Matcher {
     Match match;
     for (const auto& level : found.levels) match.poses_examined += static_cast<std::int64_t>(level.particles);
     if (found.particles.empty()) return match;
+    match.complete = !found.truncated;
     const auto& last = found.levels.back();
     const double voxels = static_cast<double>(last.weighing.look_ups) / static_cast<double>(last.particles);
     std::vector<MatchMode> candidates;

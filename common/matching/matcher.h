@@ -53,7 +53,10 @@ struct MatchMode {
 struct Match {
   /// By falling fit; distinct in pose; empty when there is nothing to match.
   std::vector<MatchMode> modes;
+  /// No pose of the lattice overlaps more than the best found.
   bool certified = false;
+  /// No mode of nearly as much overlap was left out for want of time.
+  bool complete = false;
   std::int64_t poses_examined = 0;
   /// log10 significance of the best mode (paper, section IV) over all poses of the lattice.
   double significance_log10 = 0.0;

@@ -166,6 +166,7 @@ SearchResult search(const SearchMap& map, const MatchPoints& points, const PoseW
   result.poses_examined = lattice.top_count();
   result.lattice_poses = static_cast<double>(lattice.top_count()) * std::pow(8.0, lattice.top_level());
   std::int64_t expanded = 0;
+  result.complete = true;
   while (!open.empty() && result.modes.size() < config.max_modes) {
     const Node node = open.top();
     open.pop();
@@ -176,7 +177,10 @@ SearchResult search(const SearchMap& map, const MatchPoints& points, const PoseW
       result.modes.push_back({lattice.pose(node), node.bound});
       continue;
     }
-    if (++expanded > config.max_nodes) break;
+    if (++expanded > config.max_nodes) {
+      result.complete = false;
+      break;
+    }
     for (const Node& child : lattice.children(node)) open.push(child);
     result.poses_examined += 8;
   }

@@ -62,6 +62,8 @@ struct SearchResult {
   std::vector<OverlapMode> modes;
   /// No pose of the window's lattice overlaps more than the first mode. False: the node budget ended the search.
   bool certified = false;
+  /// Every distinct mode of at least mode_ratio is listed, up to max_modes. False: the node budget ended the search.
+  bool complete = false;
   /// No unseen pose overlaps more than this (equal to the best overlap when certified).
   int bound = 0;
   /// Poses of the lattice that was searched.

@@ -76,6 +76,7 @@ TEST(Search, FindsThePoseThatTheScanWasTakenFrom) {
     const SearchMap map(world.map);
     const auto result = search(map, world.scan, whole_map(map), {});
     ASSERT_FALSE(result.modes.empty());
+    EXPECT_TRUE(result.complete);
     EXPECT_TRUE(result.certified);
     EXPECT_LT(distance_m(result.modes[0].pose, truth), 0.12) << "seed " << seed;
     EXPECT_LT(turn_rad(result.modes[0].pose, truth), 0.05) << "seed " << seed;
@@ -128,6 +129,7 @@ TEST(Search, SaysWhenItsBudgetEndedIt) {
   const SearchMap map(world.map);
   const auto result = search(map, world.scan, whole_map(map), {.max_nodes = 1});
   EXPECT_FALSE(result.certified);
+  EXPECT_FALSE(result.complete);
   EXPECT_TRUE(result.modes.empty());
   EXPECT_GT(result.bound, 0);
 }
