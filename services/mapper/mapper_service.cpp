@@ -23,6 +23,9 @@ namespace {
 // Clouds that may wait for their localisation.
 constexpr std::size_t kRecentClouds = 16;
 
+// Between two saves on request: the map's picture takes a while, and anyone may ask.
+constexpr std::int64_t kSavePause_us = 1'000'000;
+
 // An id that no other map has: when it was begun.
 std::int64_t new_map_id() {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
@@ -106,9 +109,10 @@ void MapperService::take_request(const map_request_t& message) {
       if (whole_maps_queued_ == 0) send_change(kWholeMap);
       return;
     case map_request_t::WANT_KEYFRAMES:
-      return send_keyframes(static_cast<std::size_t>(std::max(0, message.first)));
+      return resend_keyframes(static_cast<std::size_t>(std::max(0, message.first)));
     case map_request_t::WANT_SAVE:
-      return save();
+      save_wanted_ = true;
+      return;
     default:
       return health_.count("MAP_REQUEST/unknown_want");
   }
@@ -154,6 +158,12 @@ void MapperService::send_keyframes(std::size_t first) {
   }
 }
 
+void MapperService::resend_keyframes(std::size_t first) {
+  if (resends_queued_ > 0) return health_.count("MAP_REQUEST/already_answering");
+  send_keyframes(first);
+  if (sender_.push(0, [this] { --resends_queued_; })) ++resends_queued_;
+}
+
 void MapperService::store_keyframes() {
   if (!store_) return;
   try {
@@ -167,6 +177,11 @@ void MapperService::store_keyframes() {
 
 void MapperService::tick(std::int64_t now_us) {
   sender_.run(now_us);
+  if (save_wanted_ && (!last_save_us_ || now_us - *last_save_us_ >= kSavePause_us)) {
+    save_wanted_ = false;
+    last_save_us_ = now_us;
+    save();
+  }
   if (!last_sync_us_) last_sync_us_ = now_us;
   if (static_cast<double>(now_us - *last_sync_us_) * 1e-6 < config_.save_period_s) return;
   last_sync_us_ = now_us;

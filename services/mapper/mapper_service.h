@@ -59,6 +59,7 @@ class MapperService {
   void add(std::int64_t utime_us, const Pose2& pose);
   void send_change(std::int64_t base_version);
   void send_keyframes(std::size_t first);
+  void resend_keyframes(std::size_t first);
   void store_keyframes();
   void sync();
   void save();
@@ -76,7 +77,11 @@ class MapperService {
   std::deque<Cloud> recent_clouds_;
   PacedSender sender_;
   std::int64_t decided_utime_us_ = 0;
+  // Requests are answered one at a time, whoever asks and however often.
   std::int64_t whole_maps_queued_ = 0;
+  std::int64_t resends_queued_ = 0;
+  bool save_wanted_ = false;
+  std::optional<std::int64_t> last_save_us_;
   std::optional<std::int64_t> last_sync_us_;
 };
 

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <optional>
 #include <vector>
+#include <voxlist/health_t.hpp>
 #include <voxlist/keyframe_t.hpp>
 #include <voxlist/localisation_t.hpp>
 #include <voxlist/map_request_t.hpp>
@@ -162,6 +163,38 @@ TEST(Mapper, WritesTheMapsViewsOnCommandAndOnStop) {
   scene.service->stop();
   for (const char* file : {"map.png", "map.ply", "trajectory.tum"})
     EXPECT_TRUE(std::filesystem::exists(folder / file));
+}
+
+TEST(Mapper, SavesOncePerSecondHoweverOftenItIsAsked) {
+  const TemporaryFolder folder;
+  Scene scene(folder.string());
+  scene.request(map_request_t::WANT_MAP);
+  scene.drive(1, {});
+  const auto count = [&] {
+    const auto health = scene.health.due(scene.now_us += kSecond_us);
+    for (const counter_t& counter : health->counters)
+      if (counter.name == "saved") return counter.count;
+    return std::int64_t{0};
+  };
+  for (int i = 0; i < 5; ++i) scene.request(map_request_t::WANT_SAVE);
+  EXPECT_EQ(count(), 1);
+  scene.run();
+  EXPECT_EQ(count(), 2) << "what was asked for in between is not forgotten";
+  scene.run();
+  EXPECT_EQ(count(), 2);
+}
+
+TEST(Mapper, SendsKeyframesOnceWhenManyAskAtOnce) {
+  const TemporaryFolder folder;
+  Scene scene(folder.string());
+  scene.request(map_request_t::WANT_MAP);
+  for (int i = 0; i < 4; ++i) scene.drive(i + 1, {double(i), 0.0, 0.0});
+  scene.keyframes.clear();
+  map_request_t message{};
+  message.want = map_request_t::WANT_KEYFRAMES;
+  for (int i = 0; i < 5; ++i) scene.bus.publish(kMapRequest, message);
+  scene.run();
+  EXPECT_EQ(scene.keyframes.size(), 4u);
 }
 
 TEST(Mapper, OnlyServesItsMapWhenItIsNotToExtendIt) {
