@@ -21,36 +21,34 @@ std::ostream& line(const lcm::ReceiveBuffer* buffer, const std::string& channel)
   return std::cout << buffer->recv_utime / 1000 << ' ' << channel << ' ';
 }
 
-struct Watch {
-  void on_localisation(const lcm::ReceiveBuffer* buffer, const std::string& channel,
-                       const voxlist::localisation_t* m) {
-    constexpr std::array<const char*, 3> kNames = {"LOST", "AMBIGUOUS", "TRACKING"};
-    const bool known = m->state >= 0 && m->state < std::ssize(kNames);
-    line(buffer, channel) << (known ? kNames[static_cast<std::size_t>(m->state)] : "UNKNOWN") << ' '
-                          << m->utime << ' ' << m->map_id << ' ' << m->confidence << ' '
-                          << (m->modes.empty() ? 0.0 : m->modes.front().overlap) << ' '
-                          << m->elapsed_us << std::endl;
-  }
+void on_localisation(const lcm::ReceiveBuffer* buffer, const std::string& channel,
+                     const voxlist::localisation_t* m, void*) {
+  constexpr std::array<const char*, 3> kNames = {"LOST", "AMBIGUOUS", "TRACKING"};
+  const bool known = m->state >= 0 && m->state < std::ssize(kNames);
+  line(buffer, channel) << (known ? kNames[static_cast<std::size_t>(m->state)] : "UNKNOWN") << ' '
+                        << m->utime << ' ' << m->map_id << ' ' << m->confidence << ' '
+                        << (m->modes.empty() ? 0.0 : m->modes.front().overlap) << ' '
+                        << m->elapsed_us << std::endl;
+}
 
-  void on_keyframe(const lcm::ReceiveBuffer* buffer, const std::string& channel,
-                   const voxlist::keyframe_t* m) {
-    line(buffer, channel) << m->index << ' ' << m->map_id << std::endl;
-  }
+void on_keyframe(const lcm::ReceiveBuffer* buffer, const std::string& channel,
+                 const voxlist::keyframe_t* m, void*) {
+  line(buffer, channel) << m->index << ' ' << m->map_id << std::endl;
+}
 
-  void on_map_update(const lcm::ReceiveBuffer* buffer, const std::string& channel,
-                     const voxlist::map_update_t* m) {
-    line(buffer, channel) << m->version << ' ' << m->map_id << std::endl;
-  }
+void on_map_update(const lcm::ReceiveBuffer* buffer, const std::string& channel,
+                   const voxlist::map_update_t* m, void*) {
+  line(buffer, channel) << m->version << ' ' << m->map_id << std::endl;
+}
 
-  void on_health(const lcm::ReceiveBuffer* buffer, const std::string& channel,
-                 const voxlist::health_t* m) {
-    line(buffer, channel) << m->service << ' ' << m->pid << ' ' << m->state;
-    for (const voxlist::counter_t& counter : m->counters) {
-      std::cout << ' ' << counter.name << '=' << counter.count;
-    }
-    std::cout << ' ' << m->message << std::endl;
+void on_health(const lcm::ReceiveBuffer* buffer, const std::string& channel,
+               const voxlist::health_t* m, void*) {
+  line(buffer, channel) << m->service << ' ' << m->pid << ' ' << m->state;
+  for (const voxlist::counter_t& counter : m->counters) {
+    std::cout << ' ' << counter.name << '=' << counter.count;
   }
-};
+  std::cout << ' ' << m->message << std::endl;
+}
 
 }  // namespace
 
@@ -59,11 +57,11 @@ int main(int argc, char** argv) {
   const char* url = std::getenv("LCM_DEFAULT_URL");
   lcm::LCM lcm(url != nullptr ? url : "udpm://239.255.76.67:7667?ttl=0&recv_buf_size=8000000");
   if (!lcm.good()) return 2;
-  Watch watch;
-  lcm.subscribe("LOCALISATION", &Watch::on_localisation, &watch)->setQueueCapacity(1000);
-  lcm.subscribe("KEYFRAME", &Watch::on_keyframe, &watch)->setQueueCapacity(1000);
-  lcm.subscribe("MAP_UPDATE", &Watch::on_map_update, &watch)->setQueueCapacity(1000);
-  lcm.subscribe("HEALTH", &Watch::on_health, &watch)->setQueueCapacity(1000);
+  void* const nothing = nullptr;
+  lcm.subscribeFunction("LOCALISATION", &on_localisation, nothing)->setQueueCapacity(1000);
+  lcm.subscribeFunction("KEYFRAME", &on_keyframe, nothing)->setQueueCapacity(1000);
+  lcm.subscribeFunction("MAP_UPDATE", &on_map_update, nothing)->setQueueCapacity(1000);
+  lcm.subscribeFunction("HEALTH", &on_health, nothing)->setQueueCapacity(1000);
   const auto end = std::chrono::steady_clock::now() + timeout;
   while (std::chrono::steady_clock::now() < end) lcm.handleTimeout(100);
   return 0;
