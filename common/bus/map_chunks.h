@@ -20,8 +20,8 @@ inline constexpr std::int32_t kBlocksPerChunk = 780;
 /// Chunks of one change: 3.9 million blocks, 300 MB.
 inline constexpr std::int32_t kMaxChunks = 5000;
 
-/// Block coordinates are within +-this: 167 km at 0.02 m, far from overflow as voxels.
-inline constexpr std::int32_t kMaxBlockCoordinate = 1 << 20;
+/// Block coordinates are within +-this: 84 km at 0.02 m, what a VoxelMap takes (kVoxelLimit / 8).
+inline constexpr std::int32_t kMaxBlockCoordinate = 1 << 19;
 
 /// What turns one version of the voxel map into another: the new contents of the blocks that
 /// changed (all zero bits: the block is empty now), or the whole map, or nothing but a newer time.

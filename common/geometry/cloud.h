@@ -17,8 +17,9 @@ struct Cloud {
   /// Hits, metres. All finite: readers and decoders drop the others.
   std::vector<Eigen::Vector3f> points;
 
-  /// Where each ray started (for the mirror scanner the hit point on the mirror axis, not the laser), metres,
-  /// same frame. Empty: every ray started at the frame's origin. Otherwise as long as `points`.
+  /// Where each ray started (for the mirror scanner the hit point on the mirror axis, not the
+  /// laser), metres, same frame. Empty: every ray started at the frame's origin. Otherwise as long
+  /// as `points`.
   std::vector<Eigen::Vector3f> origins;
 
   /// Where ray i started.

@@ -38,8 +38,12 @@ Pose2 to_pose2(const Pose3& pose) {
   return {pose.translation().x(), pose.translation().y(), std::atan2(R(1, 0), R(0, 0))};
 }
 
-double distance_m(const Pose2& a, const Pose2& b) { return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m); }
+double distance_m(const Pose2& a, const Pose2& b) {
+  return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m);
+}
 
-double turn_rad(const Pose2& a, const Pose2& b) { return std::abs(wrap_angle(a.yaw_rad - b.yaw_rad)); }
+double turn_rad(const Pose2& a, const Pose2& b) {
+  return std::abs(wrap_angle(a.yaw_rad - b.yaw_rad));
+}
 
 }  // namespace voxlist

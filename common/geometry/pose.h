@@ -32,7 +32,8 @@ using Pose3 = Eigen::Isometry3d;
 /// The planar transform as a spatial one: z = 0, no roll, no pitch.
 Pose3 to_pose3(const Pose2& pose);
 
-/// The planar part of a spatial transform: x, y, and the heading of its x axis. Roll, pitch and z are dropped.
+/// The planar part of a spatial transform: x, y, and the heading of its x axis. Roll, pitch and z
+/// are dropped.
 Pose2 to_pose2(const Pose3& pose);
 
 /// Distance between two poses' origins in the plane (m).

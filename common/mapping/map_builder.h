@@ -24,18 +24,21 @@ struct MapBuilderConfig {
 
   template <class Visitor>
   void visit(Visitor& v) {
-    v("min_distance_m", min_distance_m, "motion after which a cloud is added to the map", 0.0, 100.0);
+    v("min_distance_m", min_distance_m, "motion after which a cloud is added to the map", 0.0,
+      100.0);
     v("min_turn_deg", min_turn_deg, "turn after which a cloud is added to the map", 0.0, 180.0);
     v("max_range_m", max_range_m, "points farther away than this stay out of the map", 0.5, 1000.0);
   }
 };
 
-/// Builds the voxel map from clouds whose pose is known. Keyframes are the truth, the voxel map is a view of them.
+/// Builds the voxel map from clouds whose pose is known. Keyframes are the truth, the voxel map is
+/// a view of them.
 class MapBuilder {
  public:
   explicit MapBuilder(const MapBuilderConfig& config = {}) : config_(config) {}
 
-  /// Whether a cloud with this pose (T_map_base, which must be a sure one) has moved enough since the last keyframe.
+  /// Whether a cloud with this pose (T_map_base, which must be a sure one) has moved enough since
+  /// the last keyframe.
   bool wants(const Pose2& pose) const;
 
   /// Puts a keyframe into the map, whatever wants() says.

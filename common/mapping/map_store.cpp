@@ -14,11 +14,12 @@
 #include "io/atomic_file.h"
 #include "io/file.h"
 
-// The file: an 8-byte magic, the map id (int64), then records. A record: payload bytes (uint32), CRC-32 of the payload
-// (uint32), payload. The payload: utime (int64), pose (12 doubles, row-major 3 x 4), points and origins (uint32 each),
-// then their coordinates (float32). All little-endian.
+// The file: an 8-byte magic, the map id (int64), then records. A record: payload bytes (uint32),
+// CRC-32 of the payload (uint32), payload. The payload: utime (int64), pose (12 doubles, row-major
+// 3 x 4), points and origins (uint32 each), then their coordinates (float32). All little-endian.
 
-static_assert(std::endian::native == std::endian::little, "the keyframe file is written as memory lies");
+static_assert(std::endian::native == std::endian::little,
+              "the keyframe file is written as memory lies");
 
 namespace voxlist {
 namespace {
@@ -26,7 +27,8 @@ namespace {
 constexpr std::string_view kMagic = "VOXKF001";
 constexpr std::size_t kFileHeader = kMagic.size() + sizeof(std::int64_t);
 constexpr std::size_t kRecordHeader = 2 * sizeof(std::uint32_t);
-constexpr std::size_t kPayloadHeader = sizeof(std::int64_t) + 12 * sizeof(double) + 2 * sizeof(std::uint32_t);
+constexpr std::size_t kPayloadHeader =
+    sizeof(std::int64_t) + 12 * sizeof(double) + 2 * sizeof(std::uint32_t);
 constexpr std::size_t kPoint = 3 * sizeof(float);
 
 // CRC-32 as in zlib and Ethernet (reflected 0x04C11DB7).
@@ -93,10 +95,12 @@ std::optional<Keyframe> decode(std::string_view payload) {
   Keyframe keyframe;
   keyframe.cloud.utime_us = take<std::int64_t>(payload);
   for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 4; ++column) keyframe.T_map_base(row, column) = take<double>(payload);
+    for (int column = 0; column < 4; ++column)
+      keyframe.T_map_base(row, column) = take<double>(payload);
   }
   const std::size_t points = take<std::uint32_t>(payload), origins = take<std::uint32_t>(payload);
-  if (payload.size() != (points + origins) * kPoint || (origins != 0 && origins != points)) return std::nullopt;
+  if (payload.size() != (points + origins) * kPoint || (origins != 0 && origins != points))
+    return std::nullopt;
   if (!keyframe.T_map_base.matrix().allFinite()) return std::nullopt;
   keyframe.cloud.points = take_points(payload, points);
   keyframe.cloud.origins = take_points(payload, origins);
@@ -113,7 +117,9 @@ std::optional<Keyframe> take_record(std::string_view& bytes) {
   return decode(payload);
 }
 
-std::string system_error(const char* doing) { return std::string(doing) + ": " + std::strerror(errno); }
+std::string system_error(const char* doing) {
+  return std::string(doing) + ": " + std::strerror(errno);
+}
 
 void write_all(int fd, std::string_view bytes) {
   while (!bytes.empty()) {
@@ -142,7 +148,8 @@ StoredMap load_map(const std::filesystem::path& folder) {
   const auto path = folder / kKeyframeFile;
   const std::string file = read_file(path);
   if (file.size() < kFileHeader || !file.starts_with(kMagic)) {
-    throw FileError(path, "is no keyframe file of Voxlist; give the folder that a map was saved to");
+    throw FileError(path,
+                    "is no keyframe file of Voxlist; give the folder that a map was saved to");
   }
   std::string_view rest = std::string_view(file).substr(kMagic.size());
   StoredMap stored;
@@ -156,13 +163,15 @@ StoredMap load_map(const std::filesystem::path& folder) {
     }
   }
   if (damaged > 0) {
-    stored.warning = path.string() + ": left out " + std::to_string(damaged) + " damaged records; " +
-                     std::to_string(stored.keyframes.size()) + " keyframes are whole";
+    stored.warning = path.string() + ": left out " + std::to_string(damaged) +
+                     " damaged records; " + std::to_string(stored.keyframes.size()) +
+                     " keyframes are whole";
   }
   return stored;
 }
 
-MapStore::MapStore(const std::filesystem::path& folder, std::int64_t map_id, const std::vector<Keyframe>& keyframes)
+MapStore::MapStore(const std::filesystem::path& folder, std::int64_t map_id,
+                   const std::vector<Keyframe>& keyframes)
     : path_(folder / kKeyframeFile) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
@@ -173,18 +182,21 @@ MapStore::MapStore(const std::filesystem::path& folder, std::int64_t map_id, con
   fd_ = open_to_append(path_);
 }
 
-MapStore::MapStore(const std::filesystem::path& folder) : path_(folder / kKeyframeFile), fd_(open_to_append(path_)) {}
+MapStore::MapStore(const std::filesystem::path& folder)
+    : path_(folder / kKeyframeFile), fd_(open_to_append(path_)) {}
 
 MapStore::~MapStore() { ::close(fd_); }
 
 void MapStore::append(const Keyframe& keyframe) {
-  struct stat before{};
+  struct stat before {};
   const bool known = ::fstat(fd_, &before) == 0;
   try {
     write_all(fd_, encode(keyframe));
   } catch (const std::exception& failure) {
     const bool restored = known && ::ftruncate(fd_, before.st_size) == 0;
-    throw FileError(path_, failure.what() + std::string(restored ? "; the keyframes before it are safe" : "; its last record is torn"));
+    throw FileError(path_,
+                    failure.what() + std::string(restored ? "; the keyframes before it are safe"
+                                                          : "; its last record is torn"));
   }
 }
 

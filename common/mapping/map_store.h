@@ -20,19 +20,22 @@ struct StoredMap {
   std::string warning;
 };
 
-/// Reads a map folder's keyframes. Damaged records (a torn last one after a crash, a flipped bit) are left out with a
-/// warning. Throws FileError when there is no such file or it is no keyframe file.
+/// Reads a map folder's keyframes. Damaged records (a torn last one after a crash, a flipped bit)
+/// are left out with a warning. Throws FileError when there is no such file or it is no keyframe
+/// file.
 StoredMap load_map(const std::filesystem::path& folder);
 
-/// The keyframes of a map on disk: append-only, each record with its checksum, so that a crash costs at most the record
-/// that was being written.
+/// The keyframes of a map on disk: append-only, each record with its checksum, so that a crash
+/// costs at most the record that was being written.
 class MapStore {
  public:
-  /// Writes a new keyframe file with these keyframes, atomically, in place of one that is there, and keeps it open for
-  /// more. Creates the folder. Throws FileError.
-  MapStore(const std::filesystem::path& folder, std::int64_t map_id, const std::vector<Keyframe>& keyframes);
+  /// Writes a new keyframe file with these keyframes, atomically, in place of one that is there,
+  /// and keeps it open for more. Creates the folder. Throws FileError.
+  MapStore(const std::filesystem::path& folder, std::int64_t map_id,
+           const std::vector<Keyframe>& keyframes);
 
-  /// Opens the folder's file to append to. It must be whole (load_map gave no warning). Throws FileError.
+  /// Opens the folder's file to append to. It must be whole (load_map gave no warning). Throws
+  /// FileError.
   explicit MapStore(const std::filesystem::path& folder);
 
   ~MapStore();

@@ -10,7 +10,8 @@ void write_map_views(const std::filesystem::path& folder, const VoxelMap& map,
                      const std::vector<StampedPose3>& trajectory) {
   std::vector<Eigen::Vector3f> centers;
   centers.reserve(map.size());
-  map.for_each_voxel([&](const Voxel& v) { centers.push_back(center(v, map.resolution_m()).cast<float>()); });
+  map.for_each_voxel(
+      [&](const Voxel& v) { centers.push_back(center(v, map.resolution_m()).cast<float>()); });
   std::vector<Pose2> path;
   for (const StampedPose3& pose : trajectory) path.push_back(to_pose2(pose.pose));
 

@@ -8,8 +8,9 @@
 
 namespace voxlist {
 
-/// Writes into a map folder what people and other programs look at, each file atomically: map.png (from above, with
-/// the path), map.ply (voxel centres, coloured by height), trajectory.tum (the poses). Throws FileError.
+/// Writes into a map folder what people and other programs look at, each file atomically: map.png
+/// (from above, with the path), map.ply (voxel centres, coloured by height), trajectory.tum (the
+/// poses). Throws FileError.
 void write_map_views(const std::filesystem::path& folder, const VoxelMap& map,
                      const std::vector<StampedPose3>& trajectory);
 

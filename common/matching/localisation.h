@@ -36,7 +36,8 @@ struct Localisation {
   LocalisationState state = LocalisationState::kLost;
   /// Best first; may be empty when LOST.
   std::vector<PoseMode> modes;
-  /// log10 of the probability of the overlap by chance (paper, section IV), over all poses of the lattice.
+  /// log10 of the probability of the overlap by chance (paper, section IV), over all poses of the
+  /// lattice.
   double significance_log10 = 0.0;
   /// How sure that the first mode is right, 0..1.
   double confidence = 0.0;

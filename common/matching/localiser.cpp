@@ -9,8 +9,8 @@ namespace {
 
 constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 
-// Global: what is needed to call a pose sure. In two simulated offices no wrong pose of 120 came within 0.84 of the
-// second-best fit, and three of five right ones stay below 0.8.
+// Global: what is needed to call a pose sure. In two simulated offices no wrong pose of 120 came
+// within 0.84 of the second-best fit, and three of five right ones stay below 0.8.
 constexpr double kSureOverlap = 0.6;
 constexpr double kSureFitRatio = 0.8;
 // Global: below this nothing fits.
@@ -25,8 +25,8 @@ constexpr double kDoubtfulFitShare = 0.8;
 constexpr double kWindow_m = 0.4, kWindow_rad = 0.3;
 constexpr double kWindowShare = 0.2;
 
-// A heavy-tailed prior on the distance from the prediction: decides between poses that fit alike. Odometry is worth
-// more than a guess from the last step.
+// A heavy-tailed prior on the distance from the prediction: decides between poses that fit alike.
+// Odometry is worth more than a guess from the last step.
 constexpr double kGuessWeight = 0.08, kOdometryWeight = 0.2;
 
 double prior_cost(const Pose2& pose, const Pose2& predicted, double weight) {
@@ -37,7 +37,8 @@ double prior_cost(const Pose2& pose, const Pose2& predicted, double weight) {
 Localisation from_match(const Cloud& cloud, const Match& match) {
   Localisation result;
   result.utime_us = cloud.utime_us;
-  for (const MatchMode& mode : match.modes) result.modes.push_back({mode.pose, mode.covariance, mode.overlap});
+  for (const MatchMode& mode : match.modes)
+    result.modes.push_back({mode.pose, mode.covariance, mode.overlap});
   result.certified = match.certified;
   result.poses_examined = match.poses_examined;
   result.significance_log10 = match.significance_log10;
@@ -89,8 +90,11 @@ struct Localiser::Track {
   }
 };
 
-Localiser::Localiser(const VoxelMap& map, const LocaliserConfig& config) : map_(map), config_(config) {
-  if (map_.empty()) make_matcher(map_, config_.matcher);  // complains about a wrong engine now, not at the first cloud
+Localiser::Localiser(const VoxelMap& map, const LocaliserConfig& config)
+    : map_(map), config_(config) {
+  if (map_.empty())
+    make_matcher(map_,
+                 config_.matcher);  // complains about a wrong engine now, not at the first cloud
 }
 
 Localiser::~Localiser() = default;
@@ -125,7 +129,7 @@ Localisation Localiser::locate(const Cloud& cloud) {
 Localisation Localiser::origin(const Cloud& cloud) {
   Localisation result;
   result.utime_us = cloud.utime_us;
-  if (cloud.points.empty()) return result;
+  if (cloud.points.size() < kFewestMatchPoints) return result;
   result.state = LocalisationState::kTracking;
   result.modes.push_back({Pose2{}, Eigen::Matrix3d::Zero(), 0.0});
   result.confidence = 1.0;
@@ -133,18 +137,22 @@ Localisation Localiser::origin(const Cloud& cloud) {
   return result;
 }
 
-Localisation Localiser::track(const Cloud& cloud, const std::optional<Pose2>& T_odom_base, double& fit) {
+Localisation Localiser::track(const Cloud& cloud, const std::optional<Pose2>& T_odom_base,
+                              double& fit) {
   const Pose2 predicted = track_->predict(cloud.utime_us, T_odom_base);
-  const double moved_m = distance_m(predicted, track_->pose), turned_rad = turn_rad(predicted, track_->pose);
+  const double moved_m = distance_m(predicted, track_->pose),
+               turned_rad = turn_rad(predicted, track_->pose);
   const double half_m = kWindow_m + kWindowShare * moved_m;
   Match match = matcher().match(
       cloud.points, PoseWindow{predicted, half_m, half_m, kWindow_rad + kWindowShare * turned_rad});
   const auto best_fit = [](const Match& m) { return m.modes.empty() ? 0.0 : m.modes.front().fit; };
   if (track_->fit == 0.0 || best_fit(match) < kDoubtfulFitShare * track_->fit) {
-    const double dt_s = std::clamp(static_cast<double>(cloud.utime_us - track_->utime_us) * 1e-6, 0.1, 3.0);
+    const double dt_s =
+        std::clamp(static_cast<double>(cloud.utime_us - track_->utime_us) * 1e-6, 0.1, 3.0);
     const double reach_m = half_m + config_.max_speed_mps * dt_s;
     const double reach_rad = kWindow_rad + config_.max_turn_rate_dps * kRadiansPerDegree * dt_s;
-    const Match wide = matcher().match(cloud.points, PoseWindow{predicted, reach_m, reach_m, reach_rad});
+    const Match wide =
+        matcher().match(cloud.points, PoseWindow{predicted, reach_m, reach_m, reach_rad});
     match.modes.insert(match.modes.end(), wide.modes.begin(), wide.modes.end());
     match.certified = match.certified && wide.certified;
     match.complete = match.complete && wide.complete;
@@ -163,7 +171,8 @@ Localisation Localiser::track(const Cloud& cloud, const std::optional<Pose2>& T_
   }
   fit = match.modes[best].fit;
   put_first(result, best);
-  const bool fits = match.modes[best].overlap >= kTrackOverlap && fit >= kTrackFitShare * track_->fit;
+  const bool fits =
+      match.modes[best].overlap >= kTrackOverlap && fit >= kTrackFitShare * track_->fit;
   result.state = fits ? LocalisationState::kTracking : LocalisationState::kLost;
   result.confidence = fits ? 0.9 + 0.1 * std::min(1.0, fit / std::max(track_->fit, 1e-9)) : 0.0;
   return result;
@@ -177,13 +186,15 @@ Localisation Localiser::locate(const Cloud& cloud, double& fit) {
   fit = match.modes.front().fit;
   const double second = match.modes.size() > 1 ? match.modes[1].fit : 0.0;
   const double ratio = fit > 0.0 ? second / fit : 1.0;
-  const bool sure = match.complete && ratio <= kSureFitRatio && match.modes.front().overlap >= kSureOverlap;
+  const bool sure =
+      match.complete && ratio <= kSureFitRatio && match.modes.front().overlap >= kSureOverlap;
   result.state = sure ? LocalisationState::kTracking : LocalisationState::kAmbiguous;
   result.confidence = confidence_of(ratio);
   return result;
 }
 
-void Localiser::remember(const Cloud& cloud, const std::optional<Pose2>& T_odom_base, const Pose2& pose, double fit) {
+void Localiser::remember(const Cloud& cloud, const std::optional<Pose2>& T_odom_base,
+                         const Pose2& pose, double fit) {
   Track next;
   next.utime_us = cloud.utime_us;
   next.pose = pose;

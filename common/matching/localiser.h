@@ -19,13 +19,14 @@ struct LocaliserConfig {
   template <class Visitor>
   void visit(Visitor& v) {
     v("max_speed_mps", max_speed_mps, "fastest motion to expect without odometry", 0.01, 50.0);
-    v("max_turn_rate_dps", max_turn_rate_dps, "fastest turn to expect without odometry", 1.0, 720.0);
+    v("max_turn_rate_dps", max_turn_rate_dps, "fastest turn to expect without odometry", 1.0,
+      720.0);
     matcher.visit(v);
   }
 };
 
-/// Finds each cloud's pose in a map: tracks from the last pose and the motion since, searches the whole map when it is
-/// lost. Time is the clouds' own. Use from one thread.
+/// Finds each cloud's pose in a map: tracks from the last pose and the motion since, searches the
+/// whole map when it is lost. Time is the clouds' own. Use from one thread.
 class Localiser {
  public:
   /// The map must outlive the localiser; call map_changed() after each change of it.
@@ -35,8 +36,8 @@ class Localiser {
   /// The map has other voxels now. The next cloud pays for making it ready (tens of milliseconds).
   void map_changed();
 
-  /// Locates a cloud (in base). `T_odom_base`: odometry's pose at the cloud's time, if there is odometry.
-  /// In an empty map the cloud defines the map frame: TRACKING at the identity.
+  /// Locates a cloud (in base). `T_odom_base`: odometry's pose at the cloud's time, if there is
+  /// odometry. In an empty map the cloud defines the map frame: TRACKING at the identity.
   Localisation localise(const Cloud& cloud, const std::optional<Pose2>& T_odom_base = std::nullopt);
 
   /// Locates a cloud by itself, without a guess and without memory.
@@ -52,7 +53,8 @@ class Localiser {
   // Each also gives the fit of its first mode.
   Localisation track(const Cloud& cloud, const std::optional<Pose2>& T_odom_base, double& fit);
   Localisation locate(const Cloud& cloud, double& fit);
-  void remember(const Cloud& cloud, const std::optional<Pose2>& T_odom_base, const Pose2& pose, double fit);
+  void remember(const Cloud& cloud, const std::optional<Pose2>& T_odom_base, const Pose2& pose,
+                double fit);
 
   const VoxelMap& map_;
   const LocaliserConfig config_;

@@ -12,20 +12,25 @@ namespace {
 
 using Points = std::vector<Eigen::Vector3f>;
 
-double horizontal_range_m(const Eigen::Vector3f& p) { return std::hypot(double(p.x()), double(p.y())); }
+double horizontal_range_m(const Eigen::Vector3f& p) {
+  return std::hypot(double(p.x()), double(p.y()));
+}
 
 bool lexicographic(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
   return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
 }
 
-// The points that are within range and do not belong to a flat-lying surface; all within range when these are few.
-Points informative_points(std::span<const Eigen::Vector3f> points, const MatchPointsConfig& config) {
+// The points that are within range and do not belong to a flat-lying surface; all within range when
+// these are few.
+Points informative_points(std::span<const Eigen::Vector3f> points,
+                          const MatchPointsConfig& config) {
   constexpr double kFlat = 0.9;         // |z| of the normal: slopes up to 26 deg count as flat
   constexpr double kFewestKept = 0.05;  // of all points
   Points in_range;
   VoxelMap voxels;
   for (const auto& p : points) {
-    if (!in_lattice(p, voxels.resolution_m()) || horizontal_range_m(p) > config.max_range_m) continue;
+    if (!in_lattice(p, voxels.resolution_m()) || horizontal_range_m(p) > config.max_range_m)
+      continue;
     in_range.push_back(p);
     voxels.insert(voxel_at(p, voxels.resolution_m()));
   }
@@ -40,7 +45,8 @@ Points informative_points(std::span<const Eigen::Vector3f> points, const MatchPo
 }
 
 // One point of each cube: the lexicographically first, sorted by cube.
-std::map<std::int32_t, Points> one_per_cube(std::span<const Eigen::Vector3f> points, const MatchPointsConfig& config) {
+std::map<std::int32_t, Points> one_per_cube(std::span<const Eigen::Vector3f> points,
+                                            const MatchPointsConfig& config) {
   std::vector<std::pair<Voxel, Eigen::Vector3f>> in_cubes;
   in_cubes.reserve(points.size());
   for (const auto& p : points) {
@@ -51,21 +57,25 @@ std::map<std::int32_t, Points> one_per_cube(std::span<const Eigen::Vector3f> poi
   });
   std::map<std::int32_t, Points> layers;
   for (std::size_t i = 0; i < in_cubes.size(); ++i) {
-    if (i == 0 || in_cubes[i].first != in_cubes[i - 1].first) layers[in_cubes[i].first.z].push_back(in_cubes[i].second);
+    if (i == 0 || in_cubes[i].first != in_cubes[i - 1].first)
+      layers[in_cubes[i].first.z].push_back(in_cubes[i].second);
   }
   return layers;
 }
 
-// The largest cap on a layer's points that keeps the total within max_points, and no layer far above the usual one:
-// walls give each layer a line of points, a floor or a ceiling gives its own a whole area.
+// The largest cap on a layer's points that keeps the total within max_points, and no layer far
+// above the usual one: walls give each layer a line of points, a floor or a ceiling gives its own a
+// whole area.
 std::size_t layer_cap(const std::map<std::int32_t, Points>& layers, std::size_t max_points) {
   constexpr double kAboveUsual = 1.5;
   std::vector<std::size_t> counts;
   for (const auto& [z, points] : layers) counts.push_back(points.size());
   if (counts.empty()) return 0;
-  std::nth_element(counts.begin(), counts.begin() + static_cast<std::ptrdiff_t>(counts.size() / 2), counts.end());
+  std::nth_element(counts.begin(), counts.begin() + static_cast<std::ptrdiff_t>(counts.size() / 2),
+                   counts.end());
   const double usual = static_cast<double>(counts[counts.size() / 2]);
-  std::size_t low = 0, high = std::min(max_points, static_cast<std::size_t>(kAboveUsual * usual) + 1);
+  std::size_t low = 0,
+              high = std::min(max_points, static_cast<std::size_t>(kAboveUsual * usual) + 1);
   while (low < high) {
     const std::size_t cap = (low + high + 1) / 2;
     std::size_t total = 0;
@@ -77,7 +87,8 @@ std::size_t layer_cap(const std::map<std::int32_t, Points>& layers, std::size_t 
 
 }  // namespace
 
-MatchPoints choose_match_points(std::span<const Eigen::Vector3f> points, const MatchPointsConfig& config) {
+MatchPoints choose_match_points(std::span<const Eigen::Vector3f> points,
+                                const MatchPointsConfig& config) {
   const auto layers = one_per_cube(informative_points(points, config), config);
   const std::size_t cap = layer_cap(layers, static_cast<std::size_t>(config.max_points));
   MatchPoints chosen;

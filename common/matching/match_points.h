@@ -1,17 +1,18 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <span>
 #include <vector>
-
-#include <Eigen/Core>
 
 namespace voxlist {
 
 /// Which points of a scan take part in matching.
 struct MatchPointsConfig {
-  /// Points farther than this (m, horizontally) are left out: they would ask for finer angles than they repay.
+  /// Points farther than this (m, horizontally) are left out: they would ask for finer angles than
+  /// they repay.
   double max_range_m = 60.0;
-  /// One point is kept of each cube of this edge (m), so that near surfaces do not outvote far ones.
+  /// One point is kept of each cube of this edge (m), so that near surfaces do not outvote far
+  /// ones.
   double spacing_m = 0.2;
   /// Most points kept; above it the fullest layers are thinned.
   int max_points = 2000;
@@ -19,17 +20,19 @@ struct MatchPointsConfig {
   double flat_cube_m = 0.32;
 };
 
-/// Points of a scan chosen for matching, in base, in a fixed order that does not depend on the order of the scan.
+/// Points of a scan chosen for matching, in base, in a fixed order that does not depend on the
+/// order of the scan.
 struct MatchPoints {
   std::vector<Eigen::Vector3f> points;
   /// Largest horizontal distance of a point from base's origin (m).
   double radius_m = 0.0;
 };
 
-/// Chooses the points of a scan that tell poses (x, y, yaw) apart. Points of surfaces that lie flat (floor, ceiling,
-/// table tops) match wherever the robot is: they are left out, unless nothing else would remain. What remains is thinned
-/// to one point a cube, and layers of one spacing's height are capped alike until `max_points` hold all. Empty when the scan has
-/// no point within range.
-MatchPoints choose_match_points(std::span<const Eigen::Vector3f> points, const MatchPointsConfig& config);
+/// Chooses the points of a scan that tell poses (x, y, yaw) apart. Points of surfaces that lie flat
+/// (floor, ceiling, table tops) match wherever the robot is: they are left out, unless nothing else
+/// would remain. What remains is thinned to one point a cube, and layers of one spacing's height
+/// are capped alike until `max_points` hold all. Empty when the scan has no point within range.
+MatchPoints choose_match_points(std::span<const Eigen::Vector3f> points,
+                                const MatchPointsConfig& config);
 
 }  // namespace voxlist

@@ -16,8 +16,10 @@ namespace {
 constexpr double kSameMode_m = 0.2;
 constexpr double kSameMode_rad = 0.07;
 
-MatchPoints chosen(std::span<const Eigen::Vector3f> points, const MatcherConfig& config, double spacing_m, int most) {
-  return choose_match_points(points, {.max_range_m = config.max_range_m, .spacing_m = spacing_m, .max_points = most});
+MatchPoints chosen(std::span<const Eigen::Vector3f> points, const MatcherConfig& config,
+                   double spacing_m, int most) {
+  return choose_match_points(
+      points, {.max_range_m = config.max_range_m, .spacing_m = spacing_m, .max_points = most});
 }
 
 double log10_significance(const Pyramid& pyramid, std::size_t points, int overlap, double poses) {
@@ -41,7 +43,8 @@ bool same_mode(const MatchMode& mode, const Pose2& pose) {
 }
 
 bool holds(const std::vector<MatchMode>& modes, const Pose2& pose) {
-  return std::any_of(modes.begin(), modes.end(), [&](const MatchMode& mode) { return same_mode(mode, pose); });
+  return std::any_of(modes.begin(), modes.end(),
+                     [&](const MatchMode& mode) { return same_mode(mode, pose); });
 }
 
 // Refines candidates and keeps the distinct ones, best fit first.
@@ -53,7 +56,8 @@ std::vector<MatchMode> refined(const SurfelMap& surfels, std::span<const Eigen::
     mode.covariance = refinement.covariance;
     mode.fit = refinement.inlier_share;
   }
-  std::stable_sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) { return a.fit > b.fit; });
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const auto& a, const auto& b) { return a.fit > b.fit; });
   std::vector<MatchMode> modes;
   for (const MatchMode& mode : candidates) {
     if (!holds(modes, mode.pose)) modes.push_back(mode);
@@ -66,10 +70,13 @@ class SearchMatcher : public Matcher {
   SearchMatcher(const VoxelMap& map, const MatcherConfig& config)
       : config_(config), map_(map), surfels_(map) {}
 
-  Match match(std::span<const Eigen::Vector3f> points, const std::optional<PoseWindow>& window) override {
+  Match match(std::span<const Eigen::Vector3f> points,
+              const std::optional<PoseWindow>& window) override {
     const MatchPoints scan = chosen(points, config_, 0.2, config_.search_points);
+    if (scan.points.size() < kFewestMatchPoints) return {};
     const SearchMap& map = search_map(window.has_value());
-    const SearchResult found = search(map, scan, window.value_or(whole_map(map)), search_config(window.has_value()));
+    const SearchResult found =
+        search(map, scan, window.value_or(whole_map(map)), search_config(window.has_value()));
     Match match;
     match.certified = found.certified;
     match.complete = found.complete;
@@ -77,21 +84,24 @@ class SearchMatcher : public Matcher {
     if (found.modes.empty()) return match;
     std::vector<MatchMode> candidates;
     for (const OverlapMode& mode : found.modes) {
-      const double share = static_cast<double>(mode.overlap) / static_cast<double>(scan.points.size());
+      const double share =
+          static_cast<double>(mode.overlap) / static_cast<double>(scan.points.size());
       candidates.push_back(candidate(mode.pose, share));
     }
     const MatchPoints fine = chosen(points, config_, 0.1, config_.refine_points);
     match.modes = refined(surfels_, fine.points, std::move(candidates));
-    match.significance_log10 = log10_significance(map.pyramid(), scan.points.size(), found.modes.front().overlap,
-                                                  found.lattice_poses);
+    match.significance_log10 = log10_significance(map.pyramid(), scan.points.size(),
+                                                  found.modes.front().overlap, found.lattice_poses);
     return match;
   }
 
  private:
   const SearchMap& search_map(bool windowed) {
     auto& map = windowed ? window_map_ : whole_map_;
-    if (!map) map.emplace(map_, PyramidConfig{.resolution_m = windowed ? config_.window_resolution_m : config_.resolution_m,
-                                              .levels = windowed ? 3 : 4});
+    if (!map)
+      map.emplace(map_, PyramidConfig{.resolution_m = windowed ? config_.window_resolution_m
+                                                               : config_.resolution_m,
+                                      .levels = windowed ? 3 : 4});
     return *map;
   }
 
@@ -120,19 +130,24 @@ class ParticleFilterMatcher : public Matcher {
         box_(map, {.resolution_m = config.resolution_m, .levels = 0}),
         surfels_(map) {}
 
-  Match match(std::span<const Eigen::Vector3f> points, const std::optional<PoseWindow>& window) override {
+  Match match(std::span<const Eigen::Vector3f> points,
+              const std::optional<PoseWindow>& window) override {
     const MatchPoints scan = chosen(points, config_, 0.05, config_.refine_points);
+    if (scan.points.size() < kFewestMatchPoints) return {};
     const auto found = filter_.localise(scan.points, window.value_or(whole_map(box_)));
     Match match;
-    for (const auto& level : found.levels) match.poses_examined += static_cast<std::int64_t>(level.particles);
+    for (const auto& level : found.levels)
+      match.poses_examined += static_cast<std::int64_t>(level.particles);
     if (found.particles.empty()) return match;
     match.complete = !found.truncated;
     const auto& last = found.levels.back();
-    const double voxels = static_cast<double>(last.weighing.look_ups) / static_cast<double>(last.particles);
+    const double voxels =
+        static_cast<double>(last.weighing.look_ups) / static_cast<double>(last.particles);
     std::vector<MatchMode> candidates;
     for (const Particle& particle : found.particles) {
       if (candidates.size() == SearchConfig().max_modes) break;
-      if (!holds(candidates, particle.pose)) candidates.push_back(candidate(particle.pose, particle.weight / voxels));
+      if (!holds(candidates, particle.pose))
+        candidates.push_back(candidate(particle.pose, particle.weight / voxels));
     }
     match.modes = refined(surfels_, scan.points, std::move(candidates));
     return match;
@@ -154,8 +169,10 @@ class ParticleFilterMatcher : public Matcher {
 
 std::unique_ptr<Matcher> make_matcher(const VoxelMap& map, const MatcherConfig& config) {
   if (config.engine == "search") return std::make_unique<SearchMatcher>(map, config);
-  if (config.engine == "particle_filter") return std::make_unique<ParticleFilterMatcher>(map, config);
-  throw std::invalid_argument("engine = \"" + config.engine + "\": must be search or particle_filter");
+  if (config.engine == "particle_filter")
+    return std::make_unique<ParticleFilterMatcher>(map, config);
+  throw std::invalid_argument("engine = \"" + config.engine +
+                              "\": must be search or particle_filter");
 }
 
 }  // namespace voxlist

@@ -13,11 +13,17 @@
 
 namespace voxlist {
 
+/// Scans with fewer points that tell poses apart than this match nothing: a handful of points fits
+/// anywhere.
+inline constexpr std::size_t kFewestMatchPoints = 50;
+
 struct MatcherConfig {
-  /// "search": certified branch and bound. "particle_filter": the paper's, for comparison (seconds a cloud).
+  /// "search": certified branch and bound. "particle_filter": the paper's, for comparison (seconds
+  /// a cloud).
   std::string engine = "search";
-  /// Cell of the tolerant map and lattice of the poses (m) in a search of the whole map, and in a window around a
-  /// prediction; refinement goes on from there. Finer: fewer false modes, and the cube of the ratio slower.
+  /// Cell of the tolerant map and lattice of the poses (m) in a search of the whole map, and in a
+  /// window around a prediction; refinement goes on from there. Finer: fewer false modes, and the
+  /// cube of the ratio slower.
   double resolution_m = 0.08;
   double window_resolution_m = 0.16;
   /// Points farther away than this take no part (m).
@@ -25,18 +31,22 @@ struct MatcherConfig {
   /// Most points that a search counts, and that a refinement uses. Changes speed, and little else.
   int search_points = 1000;
   int refine_points = 4000;
-  /// Most nodes that a search opens before it gives up the certificate. Changes speed: about 10 us each.
+  /// Most nodes that a search opens before it gives up the certificate. Changes speed: about 10 us
+  /// each.
   int max_nodes = 100'000;
 
   template <class Visitor>
   void visit(Visitor& v) {
     v("engine", engine, "search (certified) or particle_filter (the paper's; seconds a cloud)");
-    v("resolution_m", resolution_m, "lattice of poses in a search of the whole map; refined after that", 0.02, 1.0);
-    v("window_resolution_m", window_resolution_m, "lattice of poses while tracking; refined after that", 0.02, 1.0);
+    v("resolution_m", resolution_m,
+      "lattice of poses in a search of the whole map; refined after that", 0.02, 1.0);
+    v("window_resolution_m", window_resolution_m,
+      "lattice of poses while tracking; refined after that", 0.02, 1.0);
     v("max_range_m", max_range_m, "points farther away take no part in matching", 1.0, 500.0);
     v("search_points", search_points, "most points that a search counts: speed", 50, 20000);
     v("refine_points", refine_points, "most points that a refinement uses: speed", 50, 100000);
-    v("max_nodes", max_nodes, "nodes after which a search gives up its certificate: speed", 100, 100'000'000);
+    v("max_nodes", max_nodes, "nodes after which a search gives up its certificate: speed", 100,
+      100'000'000);
   }
 };
 
@@ -46,7 +56,8 @@ struct MatchMode {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   /// Share of the points in occupied cells of the tolerant map, before refinement.
   double overlap = 0.0;
-  /// Share of the points that lie on the map's surfaces, after refinement: the finer score, used to rank.
+  /// Share of the points that lie on the map's surfaces, after refinement: the finer score, used to
+  /// rank.
   double fit = 0.0;
 };
 
@@ -67,13 +78,15 @@ class Matcher {
  public:
   virtual ~Matcher() = default;
 
-  /// The modes of the scan's pose within the window, or in the whole map without one. Points in base (m).
-  virtual Match match(std::span<const Eigen::Vector3f> points, const std::optional<PoseWindow>& window) = 0;
+  /// The modes of the scan's pose within the window, or in the whole map without one. Points in
+  /// base (m).
+  virtual Match match(std::span<const Eigen::Vector3f> points,
+                      const std::optional<PoseWindow>& window) = 0;
 };
 
-/// Makes the map ready for matching, each part when it is first needed. The map must outlive the matcher and stay as
-/// it is; use the matcher from one thread.
-/// Throws std::invalid_argument on an unknown engine.
+/// Makes the map ready for matching, each part when it is first needed. The map must outlive the
+/// matcher and stay as it is; use the matcher from one thread. Throws std::invalid_argument on an
+/// unknown engine.
 std::unique_ptr<Matcher> make_matcher(const VoxelMap& map, const MatcherConfig& config);
 
 }  // namespace voxlist

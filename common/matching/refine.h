@@ -14,7 +14,8 @@ struct RefineConfig {
   int max_iterations = 30;
   /// Stops when a step is smaller than this (m at the points' typical range).
   double converged_m = 1e-4;
-  /// Standard deviation of the start, which holds the directions that the surfaces leave free (m, rad).
+  /// Standard deviation of the start, which holds the directions that the surfaces leave free (m,
+  /// rad).
   double start_sigma_m = 0.15;
   double start_sigma_rad = 0.02;
 };
@@ -30,9 +31,10 @@ struct Refinement {
   bool converged = false;
 };
 
-/// Moves a pose to where the scan's points lie best on the map's surfaces: point-to-plane Gauss-Newton with
-/// Geman-McClure weights. `start` must be within about half a surfel's edge of the answer.
-Refinement refine(const SurfelMap& surfels, std::span<const Eigen::Vector3f> points, const Pose2& start,
-                  const RefineConfig& config = {});
+/// Moves a pose to where the scan's points lie best on the map's surfaces: point-to-plane
+/// Gauss-Newton with Geman-McClure weights. `start` must be within about half a surfel's edge of
+/// the answer.
+Refinement refine(const SurfelMap& surfels, std::span<const Eigen::Vector3f> points,
+                  const Pose2& start, const RefineConfig& config = {});
 
 }  // namespace voxlist

@@ -20,7 +20,8 @@ struct Node {
   int level;
   std::int32_t angle, x, y;
 
-  // Priority: higher bound, then finer level, then position, so that the order never depends on anything else.
+  // Priority: higher bound, then finer level, then position, so that the order never depends on
+  // anything else.
   bool operator<(const Node& o) const {
     return std::tie(bound, o.level, o.angle, o.y, o.x) < std::tie(o.bound, level, angle, y, x);
   }
@@ -30,7 +31,10 @@ struct Node {
 class Lattice {
  public:
   Lattice(const SearchMap& map, const MatchPoints& points, const PoseWindow& window)
-      : map_(map), points_(points), step_m_(map.pyramid().resolution_m()), size_(1 << map.pyramid().top()) {
+      : map_(map),
+        points_(points),
+        step_m_(map.pyramid().resolution_m()),
+        size_(1 << map.pyramid().top()) {
     const double finest_rad = step_m_ / std::max(points.radius_m, step_m_);
     const double half_yaw = std::min(window.half_yaw_rad, std::numbers::pi);
     const auto count = static_cast<std::int32_t>(std::ceil(2.0 * half_yaw / finest_rad)) + 1;
@@ -38,21 +42,27 @@ class Lattice {
     // The whole circle is divided evenly; a part of it keeps the finest step around its middle.
     yaw_step_rad_ = half_yaw == std::numbers::pi ? kTwoPi / angles_ : finest_rad;
     yaw0_rad_ = window.center.yaw_rad - yaw_step_rad_ * (angles_ - 1) / 2.0;
-    const auto cells = [&](double half) { return static_cast<std::int32_t>(std::ceil(2.0 * half / step_m_)) + 1; };
+    const auto cells = [&](double half) {
+      return static_cast<std::int32_t>(std::ceil(2.0 * half / step_m_)) + 1;
+    };
     sweep_.nx = (cells(window.half_x_m) + size_ - 1) / size_;
     sweep_.ny = (cells(window.half_y_m) + size_ - 1) / size_;
-    sweep_.x0 = static_cast<std::int32_t>(std::lround(window.center.x_m / step_m_)) - sweep_.nx * size_ / 2;
-    sweep_.y0 = static_cast<std::int32_t>(std::lround(window.center.y_m / step_m_)) - sweep_.ny * size_ / 2;
+    sweep_.x0 =
+        static_cast<std::int32_t>(std::lround(window.center.x_m / step_m_)) - sweep_.nx * size_ / 2;
+    sweep_.y0 =
+        static_cast<std::int32_t>(std::lround(window.center.y_m / step_m_)) - sweep_.ny * size_ / 2;
   }
 
   // Bounds of all top-level nodes, by angle, y, x.
   std::vector<std::uint16_t> sweep_top() const {
-    const auto per_angle = static_cast<std::size_t>(sweep_.nx) * static_cast<std::size_t>(sweep_.ny);
+    const auto per_angle =
+        static_cast<std::size_t>(sweep_.nx) * static_cast<std::size_t>(sweep_.ny);
     const auto groups = static_cast<std::size_t>(angles_ / size_);
     std::vector<std::uint16_t> counts(groups * per_angle);
     tbb::parallel_for(std::size_t{0}, groups, [&](std::size_t g) {
       const auto cells = rotated_cells(static_cast<std::int32_t>(g) * size_, top_level());
-      sweep_overlaps(map_.top(), cells, sweep_, std::span(counts).subspan(g * per_angle, per_angle));
+      sweep_overlaps(map_.top(), cells, sweep_,
+                     std::span(counts).subspan(g * per_angle, per_angle));
     });
     return counts;
   }
@@ -73,10 +83,12 @@ class Lattice {
     for (int a = 0; a < 2; ++a) {
       Node* child = &result[static_cast<std::size_t>(4 * a)];
       for (int i = 0; i < 4; ++i) {
-        child[i] = {0, level, node.angle + a * half, node.x + (i & 1) * half, node.y + (i >> 1) * half};
+        child[i] = {0, level, node.angle + a * half, node.x + (i & 1) * half,
+                    node.y + (i >> 1) * half};
       }
       for (const Voxel& c : rotated_cells(node.angle + a * half, level)) {
-        for (int i = 0; i < 4; ++i) child[i].bound += grid.test({c.x + child[i].x, c.y + child[i].y, c.z});
+        for (int i = 0; i < 4; ++i)
+          child[i].bound += grid.test({c.x + child[i].x, c.y + child[i].y, c.z});
       }
     }
     return result;
@@ -90,8 +102,12 @@ class Lattice {
   }
 
   // How far a node's poses are from its middle.
-  double radius_m(const Node& node) const { return ((1 << node.level) - 1) / 2.0 * step_m_ * std::numbers::sqrt2; }
-  double radius_rad(const Node& node) const { return ((1 << node.level) - 1) / 2.0 * yaw_step_rad_; }
+  double radius_m(const Node& node) const {
+    return ((1 << node.level) - 1) / 2.0 * step_m_ * std::numbers::sqrt2;
+  }
+  double radius_rad(const Node& node) const {
+    return ((1 << node.level) - 1) / 2.0 * yaw_step_rad_;
+  }
 
   int top_level() const { return map_.pyramid().top(); }
   std::int64_t top_count() const { return std::int64_t{angles_ / size_} * sweep_.nx * sweep_.ny; }
@@ -103,7 +119,8 @@ class Lattice {
     std::vector<Voxel> cells;
     cells.reserve(points_.points.size());
     for (const auto& p : points_.points) {
-      cells.push_back(voxel_at(Eigen::Vector3d(c * p.x() - s * p.y(), s * p.x() + c * p.y(), p.z()), step_m_));
+      cells.push_back(
+          voxel_at(Eigen::Vector3d(c * p.x() - s * p.y(), s * p.x() + c * p.y(), p.z()), step_m_));
     }
     return cells;
   }
@@ -126,21 +143,25 @@ Node dive(const Lattice& lattice, Node node) {
   return node;
 }
 
-// The top nodes that may hold a mode, as a heap. What a walk down finds tells which bounds are too low to matter.
+// The top nodes that may hold a mode, as a heap. What a walk down finds tells which bounds are too
+// low to matter.
 std::priority_queue<Node> open_top_nodes(const Lattice& lattice, double mode_ratio) {
   const auto bounds = lattice.sweep_top();
-  const auto best = static_cast<std::size_t>(std::max_element(bounds.begin(), bounds.end()) - bounds.begin());
+  const auto best =
+      static_cast<std::size_t>(std::max_element(bounds.begin(), bounds.end()) - bounds.begin());
   const int found = dive(lattice, lattice.top_node(best, bounds[best])).bound;
   std::vector<Node> nodes;
   for (std::size_t i = 0; i < bounds.size(); ++i) {
-    if (bounds[i] > 0 && bounds[i] >= mode_ratio * found) nodes.push_back(lattice.top_node(i, bounds[i]));
+    if (bounds[i] > 0 && bounds[i] >= mode_ratio * found)
+      nodes.push_back(lattice.top_node(i, bounds[i]));
   }
   return std::priority_queue<Node>(std::less<Node>(), std::move(nodes));
 }
 
-// Whether all poses within radius_m and radius_rad of a pose belong to a mode that is known already.
-bool covered(const std::vector<OverlapMode>& modes, const Pose2& pose, double radius_m, double radius_rad,
-             const SearchConfig& config) {
+// Whether all poses within radius_m and radius_rad of a pose belong to a mode that is known
+// already.
+bool covered(const std::vector<OverlapMode>& modes, const Pose2& pose, double radius_m,
+             double radius_rad, const SearchConfig& config) {
   return std::any_of(modes.begin(), modes.end(), [&](const OverlapMode& mode) {
     return distance_m(mode.pose, pose) + radius_m < config.mode_distance_m &&
            turn_rad(mode.pose, pose) + radius_rad < config.mode_turn_rad;
@@ -154,7 +175,9 @@ PoseWindow whole_map(const SearchMap& map) {
   const double e = pyramid.resolution_m();
   const Voxel &low = pyramid.lowest(), &end = pyramid.end();
   return {{(low.x + end.x) * e / 2.0, (low.y + end.y) * e / 2.0, 0.0},
-          (end.x - low.x) * e / 2.0, (end.y - low.y) * e / 2.0, std::numbers::pi};
+          (end.x - low.x) * e / 2.0,
+          (end.y - low.y) * e / 2.0,
+          std::numbers::pi};
 }
 
 SearchResult search(const SearchMap& map, const MatchPoints& points, const PoseWindow& window,
@@ -164,7 +187,8 @@ SearchResult search(const SearchMap& map, const MatchPoints& points, const PoseW
   const Lattice lattice(map, points, window);
   auto open = open_top_nodes(lattice, config.mode_ratio);
   result.poses_examined = lattice.top_count();
-  result.lattice_poses = static_cast<double>(lattice.top_count()) * std::pow(8.0, lattice.top_level());
+  result.lattice_poses =
+      static_cast<double>(lattice.top_count()) * std::pow(8.0, lattice.top_level());
   std::int64_t expanded = 0;
   result.complete = true;
   while (!open.empty() && result.modes.size() < config.max_modes) {
@@ -172,7 +196,9 @@ SearchResult search(const SearchMap& map, const MatchPoints& points, const PoseW
     open.pop();
     result.bound = result.modes.empty() ? node.bound : result.modes.front().overlap;
     if (!result.modes.empty() && node.bound < config.mode_ratio * result.bound) break;
-    if (covered(result.modes, lattice.pose(node), lattice.radius_m(node), lattice.radius_rad(node), config)) continue;
+    if (covered(result.modes, lattice.pose(node), lattice.radius_m(node), lattice.radius_rad(node),
+                config))
+      continue;
     if (node.level == 0) {
       result.modes.push_back({lattice.pose(node), node.bound});
       continue;

@@ -11,7 +11,8 @@
 
 namespace voxlist {
 
-/// A map made ready for searching: rebuild it after the map has changed. Reading from several threads is safe.
+/// A map made ready for searching: rebuild it after the map has changed. Reading from several
+/// threads is safe.
 class SearchMap {
  public:
   explicit SearchMap(const VoxelMap& map, const PyramidConfig& config = {})
@@ -60,9 +61,11 @@ struct OverlapMode {
 struct SearchResult {
   /// Best first; empty when the scan or the map is empty.
   std::vector<OverlapMode> modes;
-  /// No pose of the window's lattice overlaps more than the first mode. False: the node budget ended the search.
+  /// No pose of the window's lattice overlaps more than the first mode. False: the node budget
+  /// ended the search.
   bool certified = false;
-  /// Every distinct mode of at least mode_ratio is listed, up to max_modes. False: the node budget ended the search.
+  /// Every distinct mode of at least mode_ratio is listed, up to max_modes. False: the node budget
+  /// ended the search.
   bool complete = false;
   /// No unseen pose overlaps more than this (equal to the best overlap when certified).
   int bound = 0;
@@ -72,10 +75,12 @@ struct SearchResult {
   std::int64_t poses_examined = 0;
 };
 
-/// Best-first branch and bound over the lattice of poses: translations by the pyramid's resolution e, angles by e / R
-/// (paper, equation 1), R the radius of the points. Exact and deterministic: the top level is swept as a whole, nodes are
-/// then opened in the order of their bounds (ties by position), so the first pose that comes out is a best one. Goes on
-/// until no node can hold a distinct mode of at least mode_ratio of it.
-SearchResult search(const SearchMap& map, const MatchPoints& points, const PoseWindow& window, const SearchConfig& config);
+/// Best-first branch and bound over the lattice of poses: translations by the pyramid's resolution
+/// e, angles by e / R (paper, equation 1), R the radius of the points. Exact and deterministic: the
+/// top level is swept as a whole, nodes are then opened in the order of their bounds (ties by
+/// position), so the first pose that comes out is a best one. Goes on until no node can hold a
+/// distinct mode of at least mode_ratio of it.
+SearchResult search(const SearchMap& map, const MatchPoints& points, const PoseWindow& window,
+                    const SearchConfig& config);
 
 }  // namespace voxlist

@@ -27,8 +27,8 @@ struct SurfelConfig {
   double min_flatness = 2.5;
 };
 
-/// The flat surfaces of a map: one plane for each cube of voxels that is thin enough. Sums of voxel coordinates are
-/// integers, so the planes depend on the set of voxels alone.
+/// The flat surfaces of a map: one plane for each cube of voxels that is thin enough. Sums of voxel
+/// coordinates are integers, so the planes depend on the set of voxels alone.
 class SurfelMap {
  public:
   explicit SurfelMap(const VoxelMap& map, const SurfelConfig& config = {});

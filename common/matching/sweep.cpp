@@ -12,7 +12,8 @@ constexpr std::size_t kPlanes = 16;
 // 64 counters of 16 bits, bit p of each in word p.
 class BitPlaneCounters {
  public:
-  // Adds eight words to the counters: seven full adders, then one carry that ripples up from plane 3.
+  // Adds eight words to the counters: seven full adders, then one carry that ripples up from
+  // plane 3.
   void add(const std::array<std::uint64_t, 8>& w) {
     const auto [s0, c0] = full_add(planes_[0], w[0], w[1]);
     const auto [s1, c1] = full_add(s0, w[2], w[3]);
@@ -34,7 +35,8 @@ class BitPlaneCounters {
 
   std::uint16_t count(int bit) const {
     unsigned value = 0;
-    for (std::size_t p = 0; p < kPlanes; ++p) value |= static_cast<unsigned>(planes_[p] >> bit & 1) << p;
+    for (std::size_t p = 0; p < kPlanes; ++p)
+      value |= static_cast<unsigned>(planes_[p] >> bit & 1) << p;
     return static_cast<std::uint16_t>(value);
   }
 
@@ -78,14 +80,15 @@ StridedGrid::Row StridedGrid::row(const Voxel& cell) const {
   const std::int32_t x = cell.x - origin_.x, y = cell.y - origin_.y, z = cell.z - origin_.z;
   if (y < 0 || y >= size_y_ || z < 0 || z >= size_z_) return {nullptr, 0};
   const std::int32_t first = floor_div(x, stride_), phase = x - first * stride_;
-  const auto index = (static_cast<std::size_t>(z) * static_cast<std::size_t>(size_y_) + static_cast<std::size_t>(y)) *
+  const auto index = (static_cast<std::size_t>(z) * static_cast<std::size_t>(size_y_) +
+                      static_cast<std::size_t>(y)) *
                          static_cast<std::size_t>(stride_) +
                      static_cast<std::size_t>(phase);
   return {words_.data() + index * words_per_row_, first};
 }
 
-void sweep_overlaps(const StridedGrid& grid, std::span<const Voxel> cells, const SweepWindow& window,
-                    std::span<std::uint16_t> counts) {
+void sweep_overlaps(const StridedGrid& grid, std::span<const Voxel> cells,
+                    const SweepWindow& window, std::span<std::uint16_t> counts) {
   std::vector<StridedGrid::Row> rows;
   rows.reserve(cells.size());
   for (std::int32_t j = 0; j < window.ny; ++j) {

@@ -15,7 +15,8 @@ BitGrid::BitGrid(const Voxel& origin, std::int32_t size_x, std::int32_t size_y, 
       words_(words_per_row_ * size_y_ * size_z_) {}
 
 void BitGrid::set(const Voxel& v) {
-  const std::uint32_t x = index(v.x, origin_.x), y = index(v.y, origin_.y), z = index(v.z, origin_.z);
+  const std::uint32_t x = index(v.x, origin_.x), y = index(v.y, origin_.y),
+                      z = index(v.z, origin_.z);
   if (x < size_x_ && y < size_y_ && z < size_z_) row(y, z)[x / 64] |= std::uint64_t{1} << (x % 64);
 }
 
@@ -24,7 +25,8 @@ BitGrid BitGrid::or_shifted_x(std::span<const std::int32_t> offsets) const {
   const auto words = static_cast<std::int64_t>(words_per_row_);
   // The row with as many free words on both sides as an offset can reach: no bounds to check.
   std::int64_t margin = 0;
-  for (const std::int32_t offset : offsets) margin = std::max<std::int64_t>(margin, std::abs(offset) / 64 + 2);
+  for (const std::int32_t offset : offsets)
+    margin = std::max<std::int64_t>(margin, std::abs(offset) / 64 + 2);
   std::vector<std::uint64_t> padded(static_cast<std::size_t>(words + 2 * margin));
   for (std::size_t r = 0; r < std::size_t{size_y_} * size_z_; ++r) {
     const std::uint64_t* from = words_.data() + r * words_per_row_;
@@ -65,7 +67,8 @@ BitGrid BitGrid::or_shifted_z(std::span<const std::int32_t> offsets) const {
     for (const std::int32_t offset : offsets) {
       const auto source = z + static_cast<std::uint32_t>(offset);
       if (source >= size_z_) continue;
-      for (std::size_t w = 0; w < layer; ++w) result.words_[z * layer + w] |= words_[source * layer + w];
+      for (std::size_t w = 0; w < layer; ++w)
+        result.words_[z * layer + w] |= words_[source * layer + w];
     }
   }
   return result;

@@ -7,7 +7,8 @@
 
 namespace voxlist {
 
-OccupancyList OccupancyList::from_points(std::span<const Eigen::Vector3f> points, double resolution_m) {
+OccupancyList OccupancyList::from_points(std::span<const Eigen::Vector3f> points,
+                                         double resolution_m) {
   std::vector<Voxel> voxels;
   voxels.reserve(points.size());
   for (const auto& p : points) {
@@ -23,7 +24,9 @@ OccupancyList::OccupancyList(std::vector<Voxel> voxels, double resolution_m)
 }
 
 const OccupancyList& OccupancyList::down_sampled(int factor) const {
-  if (factor < 1) throw std::invalid_argument("OccupancyList: down-sample factor " + std::to_string(factor) + " < 1");
+  if (factor < 1)
+    throw std::invalid_argument("OccupancyList: down-sample factor " + std::to_string(factor) +
+                                " < 1");
   if (factor == 1) return *this;
   auto& cached = down_sample_cache_[factor];
   if (!cached) {

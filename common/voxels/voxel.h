@@ -12,8 +12,9 @@ inline constexpr double kFinestResolution_m = 0.02;
 
 /// A cell of the voxel lattice: voxel k of edge e covers [k e, (k + 1) e) on each axis.
 ///
-/// The paper rounds to the nearest lattice point; this lattice is the same one shifted by half a voxel, so that
-/// voxels of every power-of-two resolution nest exactly and down-sampling has no bias.
+/// The paper rounds to the nearest lattice point; this lattice is the same one shifted by half a
+/// voxel, so that voxels of every power-of-two resolution nest exactly and down-sampling has no
+/// bias.
 struct Voxel {
   std::int32_t x = 0;
   std::int32_t y = 0;
@@ -33,7 +34,9 @@ constexpr std::int32_t floor_div(std::int32_t value, std::int32_t divisor) {
 /// The voxel that covers a point (m). Precondition: |coordinate| / resolution_m < 2^31.
 template <class Point>
 Voxel voxel_at(const Point& p, double resolution_m) {
-  const auto cell = [&](double value) { return static_cast<std::int32_t>(std::floor(value / resolution_m)); };
+  const auto cell = [&](double value) {
+    return static_cast<std::int32_t>(std::floor(value / resolution_m));
+  };
   return {cell(p.x()), cell(p.y()), cell(p.z())};
 }
 

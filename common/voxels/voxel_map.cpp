@@ -19,7 +19,9 @@ std::uint64_t mix(std::uint64_t value) {
 
 // Block coordinates fit 20 bits (kVoxelLimit / 8), so the packing is one to one.
 std::uint64_t pack(const Voxel& block) {
-  const auto part = [](std::int32_t value) { return static_cast<std::uint64_t>(value + (1 << 20)) & 0x1fffff; };
+  const auto part = [](std::int32_t value) {
+    return static_cast<std::uint64_t>(value + (1 << 20)) & 0x1fffff;
+  };
   return part(block.x) | part(block.y) << 21 | part(block.z) << 42;
 }
 
@@ -34,7 +36,8 @@ std::uint64_t bit_of(const Voxel& v) { return std::uint64_t{1} << ((v.x & 7) + 8
 
 }  // namespace
 
-VoxelMap::VoxelMap(double resolution_m) : resolution_m_(resolution_m), directory_(kFirstDirectorySize, kFree) {
+VoxelMap::VoxelMap(double resolution_m)
+    : resolution_m_(resolution_m), directory_(kFirstDirectorySize, kFree) {
   if (!(resolution_m > 0.0)) throw std::invalid_argument("VoxelMap: resolution must be above 0 m");
 }
 
@@ -73,7 +76,8 @@ std::size_t VoxelMap::memory_bytes() const {
 std::uint64_t VoxelMap::hash() const {
   std::vector<std::size_t> order(blocks_.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](auto a, auto b) { return positions_[a] < positions_[b]; });
+  std::sort(order.begin(), order.end(),
+            [&](auto a, auto b) { return positions_[a] < positions_[b]; });
   std::uint64_t hash = mix(std::bit_cast<std::uint64_t>(resolution_m_));
   for (const std::size_t i : order) {
     if (blocks_[i] == VoxelBlock{}) continue;
@@ -86,7 +90,8 @@ std::uint64_t VoxelMap::hash() const {
 std::size_t VoxelMap::slot_of(const Voxel& block) const {
   const std::size_t mask = directory_.size() - 1;
   std::size_t slot = mix(pack(block)) & mask;
-  while (directory_[slot] != kFree && positions_[static_cast<std::size_t>(directory_[slot])] != block) {
+  while (directory_[slot] != kFree &&
+         positions_[static_cast<std::size_t>(directory_[slot])] != block) {
     slot = (slot + 1) & mask;
   }
   return slot;
@@ -108,7 +113,8 @@ VoxelBlock& VoxelMap::find_or_add(const Voxel& block) {
 
 void VoxelMap::grow_directory() {
   directory_.assign(2 * directory_.size(), kFree);
-  for (std::size_t i = 0; i < blocks_.size(); ++i) directory_[slot_of(positions_[i])] = static_cast<std::int32_t>(i);
+  for (std::size_t i = 0; i < blocks_.size(); ++i)
+    directory_[slot_of(positions_[i])] = static_cast<std::int32_t>(i);
 }
 
 }  // namespace voxlist

@@ -18,18 +18,20 @@ inline constexpr std::int32_t kBlockEdge = 8;
 /// The block that holds a voxel.
 inline Voxel block_of(const Voxel& v) { return {v.x >> 3, v.y >> 3, v.z >> 3}; }
 
-/// A set of occupied voxels for fast insertion and look-up: a hash directory of 64-byte blocks that grows with the
-/// map. About 4 bytes per voxel at 0.02 m. Reading from several threads at once is safe; writing is not.
+/// A set of occupied voxels for fast insertion and look-up: a hash directory of 64-byte blocks that
+/// grows with the map. About 4 bytes per voxel at 0.02 m. Reading from several threads at once is
+/// safe; writing is not.
 class VoxelMap {
  public:
   /// Throws std::invalid_argument unless resolution_m > 0.
   explicit VoxelMap(double resolution_m = kFinestResolution_m);
 
-  /// Marks a voxel as occupied. True when it was not before. Precondition: |coordinates| <= kVoxelLimit.
+  /// Marks a voxel as occupied. True when it was not before. Precondition: |coordinates| <=
+  /// kVoxelLimit.
   bool insert(const Voxel& voxel);
 
-  /// Replaces the contents of a block. True when that changed a voxel. `block` is in block coordinates (voxel / 8,
-  /// rounded down). Precondition: its voxels are within kVoxelLimit.
+  /// Replaces the contents of a block. True when that changed a voxel. `block` is in block
+  /// coordinates (voxel / 8, rounded down). Precondition: its voxels are within kVoxelLimit.
   bool set_block(const Voxel& block, const VoxelBlock& bits);
 
   bool contains(const Voxel& voxel) const;
@@ -50,7 +52,8 @@ class VoxelMap {
   /// Bytes held by directory and blocks.
   std::size_t memory_bytes() const;
 
-  /// A number that depends on the set of voxels and the resolution alone, not on the order of insertion.
+  /// A number that depends on the set of voxels and the resolution alone, not on the order of
+  /// insertion.
   std::uint64_t hash() const;
 
   /// Calls visit(Voxel) for every occupied voxel, block by block.
@@ -65,7 +68,8 @@ class VoxelMap {
     for (std::int32_t z = 0; z < kBlockEdge; ++z) {
       for (std::uint64_t word = bits[static_cast<std::size_t>(z)]; word != 0; word &= word - 1) {
         const std::int32_t bit = std::countr_zero(word);
-        visit(Voxel{position.x * kBlockEdge + bit % 8, position.y * kBlockEdge + bit / 8, position.z * kBlockEdge + z});
+        visit(Voxel{position.x * kBlockEdge + bit % 8, position.y * kBlockEdge + bit / 8,
+                    position.z * kBlockEdge + z});
       }
     }
   }

@@ -100,11 +100,13 @@ void LocaliserService::request_map(std::int64_t now_us) {
   bus_.publish(kMapRequest, request);
 }
 
-// Whether the map that the waiting cloud is to be matched with is here, or is not worth waiting for any longer.
+// Whether the map that the waiting cloud is to be matched with is here, or is not worth waiting for
+// any longer.
 bool LocaliserService::map_is_due(std::int64_t now_us) const {
   if (!unanswered_utime_us_) return true;
   if (assembler_.held() && assembler_.held()->utime_us >= *unanswered_utime_us_) return true;
-  return static_cast<double>(now_us - unanswered_since_us_.value_or(now_us)) * 1e-6 >= config_.map_wait_s;
+  return static_cast<double>(now_us - unanswered_since_us_.value_or(now_us)) * 1e-6 >=
+         config_.map_wait_s;
 }
 
 void LocaliserService::localise(const Cloud& cloud) {
@@ -125,7 +127,9 @@ void LocaliserService::localise(const Cloud& cloud) {
       std::chrono::duration_cast<std::chrono::microseconds>(Clock::now() - start).count());
   health_.count(std::string("state/") + name(result.state));
   health_.set_state(result.tracking() ? Health::State::kOk : Health::State::kWarning,
-                    result.tracking() ? "" : held ? name(result.state) : "waits for a map: is the mapper running?");
+                    result.tracking() ? ""
+                    : held            ? name(result.state)
+                                      : "waits for a map: is the mapper running?");
   T_map_odom_.reset();
   unanswered_utime_us_.reset();
   unanswered_since_us_.reset();

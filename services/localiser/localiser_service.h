@@ -24,16 +24,21 @@ struct LocaliserServiceConfig {
 
   template <class Visitor>
   void visit(Visitor& v) {
-    v("map_wait_s", map_wait_s, "longest wait for the mapper's word on the last cloud before the next is matched", 0.0, 10.0);
-    v("max_waiting_clouds", max_waiting_clouds, "clouds that may wait; then the oldest is dropped. 1: always the newest, for maps that are there; more: a busy second leaves no hole in a new one", 1, 100);
+    v("map_wait_s", map_wait_s,
+      "longest wait for the mapper's word on the last cloud before the next is matched", 0.0, 10.0);
+    v("max_waiting_clouds", max_waiting_clouds,
+      "clouds that may wait; then the oldest is dropped. 1: always the newest, for maps that are "
+      "there; more: a busy second leaves no hole in a new one",
+      1, 100);
     localiser.visit(v);
   }
 };
 
 /// CLOUD, ODOMETRY and MAP_UPDATE in; POSE, LOCALISATION and MAP_REQUEST out.
 ///
-/// A cloud waits until the mapper has decided on the cloud before it (bounded by map_wait_s): so a run gives the same
-/// map as its replay, and as the desk tool. A few clouds may wait; beyond that the oldest is dropped and counted.
+/// A cloud waits until the mapper has decided on the cloud before it (bounded by map_wait_s): so a
+/// run gives the same map as its replay, and as the desk tool. A few clouds may wait; beyond that
+/// the oldest is dropped and counted.
 class LocaliserService {
  public:
   LocaliserService(Bus& bus, Health& health, const LocaliserServiceConfig& config);

@@ -4,5 +4,6 @@
 int main(int argc, char** argv) {
   using namespace voxlist;
   return run_service<LocaliserService, LocaliserServiceConfig>(
-      argc, argv, {"localiser", "Finds the robot's pose in the map from each cloud, and says how sure it is."});
+      argc, argv,
+      {"localiser", "Finds the robot's pose in the map from each cloud, and says how sure it is."});
 }

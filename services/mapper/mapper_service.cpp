@@ -35,7 +35,8 @@ std::int64_t new_map_id() {
 std::optional<Pose2> pose_of(const localisation_t& message) {
   if (message.state != localisation_t::STATE_TRACKING || message.modes.empty()) return std::nullopt;
   const double* pose = message.modes.front().pose;
-  const bool sane = std::abs(pose[0]) < kMaxPosition_m && std::abs(pose[1]) < kMaxPosition_m && std::isfinite(pose[2]);
+  const bool sane = std::abs(pose[0]) < kMaxPosition_m && std::abs(pose[1]) < kMaxPosition_m &&
+                    std::isfinite(pose[2]);
   return sane ? std::optional(Pose2{pose[0], pose[1], wrap_angle(pose[2])}) : std::nullopt;
 }
 
@@ -45,7 +46,8 @@ MapperService::MapperService(Bus& bus, Health& health, const MapperServiceConfig
     : bus_(bus), health_(health), config_(config), builder_(config.builder), map_id_(new_map_id()) {
   load();
   bus_.subscribe(kCloud, [this](const pointcloud_t& message) { take_cloud(message); });
-  bus_.subscribe(kLocalisation, [this](const localisation_t& message) { take_localisation(message); });
+  bus_.subscribe(kLocalisation,
+                 [this](const localisation_t& message) { take_localisation(message); });
   bus_.subscribe(kMapRequest, [this](const map_request_t& message) { take_request(message); });
 }
 
@@ -67,7 +69,8 @@ void MapperService::load() {
     store_ = std::make_unique<MapStore>(folder);
   } else {
     // What is damaged is kept aside, for whoever wants to look.
-    std::filesystem::copy_file(folder / kKeyframeFile, folder / (std::string(kKeyframeFile) + ".damaged"),
+    std::filesystem::copy_file(folder / kKeyframeFile,
+                               folder / (std::string(kKeyframeFile) + ".damaged"),
                                std::filesystem::copy_options::overwrite_existing);
     store_ = std::make_unique<MapStore>(folder, map_id_, builder_.keyframes());
     health_.set_state(Health::State::kWarning, stored.warning);
@@ -151,7 +154,8 @@ void MapperService::send_keyframes(std::size_t first) {
     const std::size_t bytes = 24 * keyframe.cloud.points.size();
     const bool queued = sender_.push(bytes, [this, i] {
       const Keyframe& k = builder_.keyframes()[i];
-      bus_.publish(kKeyframe, to_message(PosedCloud{map_id_, static_cast<std::int32_t>(i), k.T_map_base, k.cloud}));
+      bus_.publish(kKeyframe, to_message(PosedCloud{map_id_, static_cast<std::int32_t>(i),
+                                                    k.T_map_base, k.cloud}));
     });
     // The listener asks again for what did not fit.
     if (!queued) return health_.count("KEYFRAME/queue_full");
@@ -167,7 +171,8 @@ void MapperService::resend_keyframes(std::size_t first) {
 void MapperService::store_keyframes() {
   if (!store_) return;
   try {
-    for (; stored_ < builder_.keyframes().size(); ++stored_) store_->append(builder_.keyframes()[stored_]);
+    for (; stored_ < builder_.keyframes().size(); ++stored_)
+      store_->append(builder_.keyframes()[stored_]);
     health_.set_state(Health::State::kOk);
   } catch (const FileError& error) {
     health_.count("save_failed");

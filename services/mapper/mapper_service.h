@@ -28,21 +28,24 @@ struct MapperServiceConfig {
 
   template <class Visitor>
   void visit(Visitor& v) {
-    v("folder", folder, "where the map is kept; loaded at start when it holds one; empty: in memory alone");
+    v("folder", folder,
+      "where the map is kept; loaded at start when it holds one; empty: in memory alone");
     v("extend", extend, "add clouds to the map; false: only serve the map that is there");
-    v("save_period_s", save_period_s, "how often what was added is synced to the disk", 0.1, 3600.0);
+    v("save_period_s", save_period_s, "how often what was added is synced to the disk", 0.1,
+      3600.0);
     builder.visit(v);
   }
 };
 
 /// CLOUD, LOCALISATION and MAP_REQUEST in; MAP_UPDATE and KEYFRAME out; the map folder on disk.
 ///
-/// Each LOCALISATION is answered by a MAP_UPDATE, an empty one when nothing was added: the localiser waits for it.
-/// Each keyframe goes to disk at once, so that kill -9 loses none; a disk that is full is an error in HEALTH, and
-/// what could not be written is kept and tried again.
+/// Each LOCALISATION is answered by a MAP_UPDATE, an empty one when nothing was added: the
+/// localiser waits for it. Each keyframe goes to disk at once, so that kill -9 loses none; a disk
+/// that is full is an error in HEALTH, and what could not be written is kept and tried again.
 class MapperService {
  public:
-  /// Loads the folder's map. Throws FileError when there is one that cannot be read or no folder can be made.
+  /// Loads the folder's map. Throws FileError when there is one that cannot be read or no folder
+  /// can be made.
   MapperService(Bus& bus, Health& health, const MapperServiceConfig& config);
 
   /// Sends what is queued, as fast as listeners can take it, and syncs the disk when it is time.

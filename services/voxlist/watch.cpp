@@ -34,20 +34,24 @@ class RobotView {
   explicit RobotView(Bus& bus) {
     bus.subscribe(kLocalisation, [this](const localisation_t& message) { take(message); });
     bus.subscribe(kKeyframe, [this](const keyframe_t& message) { keyframes_ = message.index + 1; });
-    bus.subscribe(kObstacles, [this](const obstacles_t& message) { take(message); }, Delivery::kLatest);
+    bus.subscribe(
+        kObstacles, [this](const obstacles_t& message) { take(message); }, Delivery::kLatest);
   }
 
   bool seen() const { return localisations_ > 0; }
   Clock::time_point last_seen() const { return last_seen_; }
 
   std::string line() const {
-    if (!seen()) return "waiting for LOCALISATION: are the services running, and does a scanner publish CLOUD?";
+    if (!seen())
+      return "waiting for LOCALISATION: are the services running, and does a scanner publish "
+             "CLOUD?";
     const double time_s = static_cast<double>(last_.utime - first_utime_us_) * 1e-6;
-    std::string text = padded(fixed(time_s, 0), 5) + " s  " + padded(name(static_cast<LocalisationState>(last_.state)), -9);
+    std::string text = padded(fixed(time_s, 0), 5) + " s  " +
+                       padded(name(static_cast<LocalisationState>(last_.state)), -9);
     if (!last_.modes.empty()) {
       const double* pose = last_.modes.front().pose;
-      text += "  x " + padded(fixed(pose[0], 2), 7) + " m  y " + padded(fixed(pose[1], 2), 7) + " m  yaw " +
-              padded(fixed(pose[2] * 180.0 / std::numbers::pi, 1), 6) + " deg";
+      text += "  x " + padded(fixed(pose[0], 2), 7) + " m  y " + padded(fixed(pose[1], 2), 7) +
+              " m  yaw " + padded(fixed(pose[2] * 180.0 / std::numbers::pi, 1), 6) + " deg";
     }
     text += "  map " + padded(std::to_string(keyframes_), 4) + " keyframes";
     if (std::isfinite(nearest_m_)) text += "  nearest obstacle " + fixed(nearest_m_, 2) + " m";
@@ -55,8 +59,8 @@ class RobotView {
   }
 
   std::string summary() const {
-    return std::to_string(localisations_) + " clouds, " + std::to_string(tracking_) + " placed, map of " +
-           std::to_string(keyframes_) + " keyframes";
+    return std::to_string(localisations_) + " clouds, " + std::to_string(tracking_) +
+           " placed, map of " + std::to_string(keyframes_) + " keyframes";
   }
 
  private:
@@ -86,7 +90,8 @@ bool is_over(const WatchOptions& options, const RobotView& robot, Clock::time_po
   };
   if (stop_requested()) return true;
   if (options.seconds > 0.0 && seconds_since(start) >= options.seconds) return true;
-  return options.idle_seconds > 0.0 && robot.seen() && seconds_since(robot.last_seen()) >= options.idle_seconds;
+  return options.idle_seconds > 0.0 && robot.seen() &&
+         seconds_since(robot.last_seen()) >= options.idle_seconds;
 }
 
 int run(const WatchOptions& options, Console& console) {
@@ -116,14 +121,20 @@ int run(const WatchOptions& options, Console& console) {
 }  // namespace
 
 void add_watch(CLI::App& program, Command& chosen) {
-  CLI::App* command = program.add_subcommand("watch", "Shows where the robot is and how its map grows, live.");
+  CLI::App* command =
+      program.add_subcommand("watch", "Shows where the robot is and how its map grows, live.");
   const auto options = std::make_shared<WatchOptions>();
-  command->add_option("--lcm-url", options->url, "the bus; default $LCM_DEFAULT_URL, else LCM's default");
-  command->add_option("--seconds", options->seconds, "ends after this time; default: at Ctrl-C")->check(CLI::NonNegativeNumber);
-  command->add_option("--idle", options->idle_seconds, "ends when no cloud was answered for this long")
+  command->add_option("--lcm-url", options->url,
+                      "the bus; default $LCM_DEFAULT_URL, else LCM's default");
+  command->add_option("--seconds", options->seconds, "ends after this time; default: at Ctrl-C")
+      ->check(CLI::NonNegativeNumber);
+  command
+      ->add_option("--idle", options->idle_seconds, "ends when no cloud was answered for this long")
       ->check(CLI::NonNegativeNumber);
   command->footer("Example:\n  voxlist watch --seconds 60");
-  command->callback([options, &chosen] { chosen = [options](Console& console) { return run(*options, console); }; });
+  command->callback([options, &chosen] {
+    chosen = [options](Console& console) { return run(*options, console); };
+  });
 }
 
 }  // namespace voxlist

@@ -11,7 +11,8 @@ TEST(MapConvert, AWholeMapAndItsIncrementsCarryTheMapOver) {
   std::mt19937 random(1);
   std::uniform_int_distribution<int> coordinate(-200, 200);
   VoxelMap sent, received(0.5);
-  for (int i = 0; i < 5000; ++i) sent.insert({coordinate(random), coordinate(random), coordinate(random)});
+  for (int i = 0; i < 5000; ++i)
+    sent.insert({coordinate(random), coordinate(random), coordinate(random)});
   MapChange whole{.resolution_m = sent.resolution_m(), .blocks = to_messages(sent)};
   EXPECT_TRUE(apply(whole, received));
   EXPECT_EQ(received.hash(), sent.hash());

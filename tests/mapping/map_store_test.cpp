@@ -31,7 +31,8 @@ void expect_keyframes(const StoredMap& stored, const std::vector<int>& numbers) 
     EXPECT_EQ(stored.keyframes[i].cloud.utime_us, expected.cloud.utime_us);
     EXPECT_EQ(stored.keyframes[i].cloud.points, expected.cloud.points);
     EXPECT_EQ(stored.keyframes[i].cloud.origins, expected.cloud.origins);
-    EXPECT_EQ(stored.keyframes[i].T_map_base.matrix().topRows<3>(), expected.T_map_base.matrix().topRows<3>());
+    EXPECT_EQ(stored.keyframes[i].T_map_base.matrix().topRows<3>(),
+              expected.T_map_base.matrix().topRows<3>());
   }
 }
 

@@ -37,7 +37,8 @@ Drive drive(int seed, double duration_s) {
 }
 
 void add(VoxelMap& map, const Cloud& cloud, const Pose2& pose) {
-  for (const auto& p : cloud.points) map.insert(voxel_at(pose * p.cast<double>(), map.resolution_m()));
+  for (const auto& p : cloud.points)
+    map.insert(voxel_at(pose * p.cast<double>(), map.resolution_m()));
 }
 
 VoxelMap map_at_truth(const Drive& drive) {
@@ -56,14 +57,26 @@ TEST(Localiser, FirstCloudDefinesTheMapFrame) {
   EXPECT_EQ(localiser.localise(Cloud{}).state, LocalisationState::kLost);
 }
 
+TEST(Localiser, ClaimsNothingFromAHandfulOfPoints) {
+  const Drive run = drive(1, 2.0);
+  Cloud few = run.clouds[1];
+  few.points.resize(40);
+  few.origins.clear();
+  VoxelMap empty;
+  EXPECT_FALSE(Localiser(empty).localise(few).tracking());
+  const VoxelMap map = map_at_truth(run);
+  Localiser localiser(map);
+  EXPECT_FALSE(localiser.localise(few).tracking());
+}
+
 // Maps scan by scan, and returns the largest error of a pose.
 double largest_mapping_error_m(const Drive& run, bool with_odometry) {
   VoxelMap map;
   Localiser localiser(map);
   double worst = 0.0;
   for (std::size_t i = 0; i < run.clouds.size(); ++i) {
-    const auto result =
-        localiser.localise(run.clouds[i], with_odometry ? std::optional(run.odometry[i]) : std::nullopt);
+    const auto result = localiser.localise(
+        run.clouds[i], with_odometry ? std::optional(run.odometry[i]) : std::nullopt);
     if (!result.tracking()) return 1e9;
     const Pose2& pose = result.modes.front().T_map_base;
     worst = std::max(worst, distance_m(pose, run.truth[0].inverse() * run.truth[i]));
@@ -147,7 +160,8 @@ TEST(Localiser, RunsThePapersFilterWhenAsked) {
   localiser.map_changed();
   const auto result = localiser.localise(run.clouds[1]);
   ASSERT_TRUE(result.tracking());
-  EXPECT_LT(distance_m(result.modes.front().T_map_base, run.truth[0].inverse() * run.truth[1]), 0.1);
+  EXPECT_LT(distance_m(result.modes.front().T_map_base, run.truth[0].inverse() * run.truth[1]),
+            0.1);
 }
 
 TEST(Localiser, RefusesAnUnknownEngine) {

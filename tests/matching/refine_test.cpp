@@ -8,7 +8,8 @@
 namespace voxlist {
 namespace {
 
-// The room's walls lie on faces of voxels, so that each stands half a voxel off in the map: 0.014 m over both axes.
+// The room's walls lie on faces of voxels, so that each stands half a voxel off in the map: 0.014 m
+// over both axes.
 TEST(Refine, FindsThePoseToHalfAVoxelOfTheMap) {
   for (unsigned seed = 1; seed <= 5; ++seed) {
     const auto room = synthetic_room(6.0, 5.0, {2.5, 2.0, 0.7}, 5000, seed);
@@ -50,7 +51,8 @@ TEST(Refine, StaysAtItsStartWhereThereIsNoSurface) {
 TEST(SurfelMap, FitsTheWallThatAPointLiesOn) {
   VoxelMap map;
   for (double y = 0.0; y < 2.0; y += 0.02) {
-    for (double z = 0.0; z < 2.0; z += 0.02) map.insert(voxel_at(Eigen::Vector3d(1.01, y, z), 0.02));
+    for (double z = 0.0; z < 2.0; z += 0.02)
+      map.insert(voxel_at(Eigen::Vector3d(1.01, y, z), 0.02));
   }
   const SurfelMap surfels(map);
   const Surfel* surfel = surfels.find({1.1, 1.0, 1.0});
@@ -67,7 +69,8 @@ TEST(MatchPoints, LeaveOutTheFloorAndKeepTheWalls) {
     for (float z = 0.1f; z < 2.f; z += 0.05f) points.emplace_back(x, 4.f, z);
   }
   const auto chosen = choose_match_points(points, {});
-  const auto on_floor = std::count_if(chosen.points.begin(), chosen.points.end(), [](auto& p) { return p.z() < 0.05f; });
+  const auto on_floor = std::count_if(chosen.points.begin(), chosen.points.end(),
+                                      [](auto& p) { return p.z() < 0.05f; });
   EXPECT_LT(on_floor, static_cast<std::ptrdiff_t>(chosen.points.size() / 10));
   EXPECT_GT(chosen.points.size(), 200u);
 }

@@ -38,7 +38,8 @@ int overlap_at(const SearchMap& map, const MatchPoints& scan, const Pose2& pose)
   int count = 0;
   const double e = map.pyramid().resolution_m();
   const Pose2 turn{0.0, 0.0, pose.yaw_rad};
-  const auto tx = static_cast<int>(std::lround(pose.x_m / e)), ty = static_cast<int>(std::lround(pose.y_m / e));
+  const auto tx = static_cast<int>(std::lround(pose.x_m / e)),
+             ty = static_cast<int>(std::lround(pose.y_m / e));
   for (const auto& p : scan.points) {
     const Voxel v = voxel_at(turn * p.cast<double>(), e);
     count += map.pyramid().level(0).test({v.x + tx, v.y + ty, v.z});
@@ -51,7 +52,8 @@ TEST(Sweep, CountsLikeAPointByPointLookUp) {
   const SearchMap map(world.map);
   const int stride = map.top().stride(), top = map.pyramid().top();
   std::vector<Voxel> cells;
-  for (const auto& p : world.scan.points) cells.push_back(voxel_at(p, map.pyramid().resolution_m()));
+  for (const auto& p : world.scan.points)
+    cells.push_back(voxel_at(p, map.pyramid().resolution_m()));
   const SweepWindow window{-70, -50, 130 / stride + 70, 9};
   std::vector<std::uint16_t> counts(static_cast<std::size_t>(window.nx * window.ny));
   sweep_overlaps(map.top(), cells, window, counts);
@@ -60,7 +62,8 @@ TEST(Sweep, CountsLikeAPointByPointLookUp) {
     for (int i = 0; i < window.nx; ++i) {
       int expected = 0;
       for (const Voxel& c : cells) {
-        expected += map.pyramid().level(top).test({c.x + window.x0 + i * stride, c.y + window.y0 + j * stride, c.z});
+        expected += map.pyramid().level(top).test(
+            {c.x + window.x0 + i * stride, c.y + window.y0 + j * stride, c.z});
       }
       ASSERT_EQ(counts[static_cast<std::size_t>(j * window.nx + i)], expected) << i << ' ' << j;
       total += expected;
@@ -99,12 +102,15 @@ TEST(Search, BestOverlapEqualsBruteForceOverTheWindow) {
       return (count + node - 1) / node * node;
     };
     const int n = whole(0.5, e), angles = whole(0.2, step);
-    const int x0 = static_cast<int>(std::lround(0.4 / e)) - n / 2, y0 = static_cast<int>(std::lround(0.3 / e)) - n / 2;
+    const int x0 = static_cast<int>(std::lround(0.4 / e)) - n / 2,
+              y0 = static_cast<int>(std::lround(0.3 / e)) - n / 2;
     int best = 0;
     for (int a = 0; a < angles; ++a)
       for (int x = 0; x < n; ++x)
         for (int y = 0; y < n; ++y) {
-          best = std::max(best, overlap_at(map, world.scan, {(x0 + x) * e, (y0 + y) * e, 0.9 + step * (a - (angles - 1) / 2.0)}));
+          best = std::max(best, overlap_at(map, world.scan,
+                                           {(x0 + x) * e, (y0 + y) * e,
+                                            0.9 + step * (a - (angles - 1) / 2.0)}));
         }
     EXPECT_EQ(result.modes[0].overlap, best) << "seed " << seed;
   }

@@ -13,12 +13,14 @@ std::vector<Eigen::Vector3f> random_points(unsigned seed, int count, float exten
   std::mt19937 random(seed);
   std::uniform_real_distribution<float> coordinate(-extent_m, extent_m);
   std::vector<Eigen::Vector3f> points;
-  for (int i = 0; i < count; ++i) points.emplace_back(coordinate(random), coordinate(random), coordinate(random));
+  for (int i = 0; i < count; ++i)
+    points.emplace_back(coordinate(random), coordinate(random), coordinate(random));
   return points;
 }
 
 TEST(OccupancyList, HoldsEachOccupiedVoxelOnce) {
-  const std::vector<Eigen::Vector3f> points{{0.001f, 0.f, 0.f}, {0.019f, 0.f, 0.f}, {-0.001f, 0.f, 0.f}};
+  const std::vector<Eigen::Vector3f> points{
+      {0.001f, 0.f, 0.f}, {0.019f, 0.f, 0.f}, {-0.001f, 0.f, 0.f}};
   const auto list = OccupancyList::from_points(points, 0.02);
   ASSERT_EQ(list.size(), 2u);
   EXPECT_EQ(list.voxels()[0], (Voxel{-1, 0, 0}));
@@ -26,8 +28,10 @@ TEST(OccupancyList, HoldsEachOccupiedVoxelOnce) {
 }
 
 TEST(OccupancyList, DropsPointsOutsideTheLattice) {
-  const float inf = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
-  const std::vector<Eigen::Vector3f> points{{inf, 0.f, 0.f}, {0.f, nan, 0.f}, {1e9f, 0.f, 0.f}, {1.f, 1.f, 1.f}};
+  const float inf = std::numeric_limits<float>::infinity(),
+              nan = std::numeric_limits<float>::quiet_NaN();
+  const std::vector<Eigen::Vector3f> points{
+      {inf, 0.f, 0.f}, {0.f, nan, 0.f}, {1e9f, 0.f, 0.f}, {1.f, 1.f, 1.f}};
   EXPECT_EQ(OccupancyList::from_points(points).size(), 1u);
 }
 
@@ -37,11 +41,13 @@ TEST(OccupancyList, DownSampledVoxelsAreThoseThatHoldAPoint) {
   for (const int factor : {2, 4, 8, 16, 32, 64}) {
     std::set<Voxel> expected;
     for (const auto& v : list.voxels()) {
-      expected.insert({static_cast<int>(std::floor(double(v.x) / factor)), static_cast<int>(std::floor(double(v.y) / factor)),
+      expected.insert({static_cast<int>(std::floor(double(v.x) / factor)),
+                       static_cast<int>(std::floor(double(v.y) / factor)),
                        static_cast<int>(std::floor(double(v.z) / factor))});
     }
     const auto& coarse = list.down_sampled(factor);
-    EXPECT_TRUE(std::equal(expected.begin(), expected.end(), coarse.voxels().begin(), coarse.voxels().end()));
+    EXPECT_TRUE(std::equal(expected.begin(), expected.end(), coarse.voxels().begin(),
+                           coarse.voxels().end()));
     EXPECT_DOUBLE_EQ(coarse.resolution_m(), 0.02 * factor);
   }
 }

@@ -11,7 +11,8 @@ VoxelMap random_map(unsigned seed, int count, int extent) {
   std::mt19937 random(seed);
   std::uniform_int_distribution<int> coordinate(-extent, extent);
   VoxelMap map;
-  for (int i = 0; i < count; ++i) map.insert({coordinate(random), coordinate(random), coordinate(random) / 4});
+  for (int i = 0; i < count; ++i)
+    map.insert({coordinate(random), coordinate(random), coordinate(random) / 4});
   return map;
 }
 
@@ -19,7 +20,8 @@ bool holds_voxel(const VoxelMap& map, const Voxel& cell, int factor) {
   for (int x = 0; x < factor; ++x)
     for (int y = 0; y < factor; ++y)
       for (int z = 0; z < factor; ++z)
-        if (map.contains({cell.x * factor + x, cell.y * factor + y, cell.z * factor + z})) return true;
+        if (map.contains({cell.x * factor + x, cell.y * factor + y, cell.z * factor + z}))
+          return true;
   return false;
 }
 
@@ -29,10 +31,11 @@ TEST(Pyramid, LevelZeroIsTheMapAndItsFaceNeighbours) {
   for (int x = -20; x <= 20; ++x)
     for (int y = -20; y <= 20; ++y)
       for (int z = -7; z <= 7; ++z) {
-        const bool expected = holds_voxel(map, {x, y, z}, 4) || holds_voxel(map, {x - 1, y, z}, 4) ||
-                              holds_voxel(map, {x + 1, y, z}, 4) || holds_voxel(map, {x, y - 1, z}, 4) ||
-                              holds_voxel(map, {x, y + 1, z}, 4) || holds_voxel(map, {x, y, z - 1}, 4) ||
-                              holds_voxel(map, {x, y, z + 1}, 4);
+        const bool expected =
+            holds_voxel(map, {x, y, z}, 4) || holds_voxel(map, {x - 1, y, z}, 4) ||
+            holds_voxel(map, {x + 1, y, z}, 4) || holds_voxel(map, {x, y - 1, z}, 4) ||
+            holds_voxel(map, {x, y + 1, z}, 4) || holds_voxel(map, {x, y, z - 1}, 4) ||
+            holds_voxel(map, {x, y, z + 1}, 4);
         ASSERT_EQ(pyramid.level(0).test({x, y, z}), expected) << x << ' ' << y << ' ' << z;
       }
 }
@@ -46,8 +49,10 @@ TEST(Pyramid, EachLevelIsTheOrOfItsWindowInLevelZero) {
         for (int z = -7; z <= 7; ++z) {
           bool expected = false;
           for (int dx = -h; dx < 3 * h && !expected; ++dx)
-            for (int dy = -h; dy < 3 * h && !expected; ++dy) expected = pyramid.level(0).test({x + dx, y + dy, z});
-          ASSERT_EQ(pyramid.level(k).test({x, y, z}), expected) << "level " << k << ": " << x << ' ' << y << ' ' << z;
+            for (int dy = -h; dy < 3 * h && !expected; ++dy)
+              expected = pyramid.level(0).test({x + dx, y + dy, z});
+          ASSERT_EQ(pyramid.level(k).test({x, y, z}), expected)
+              << "level " << k << ": " << x << ' ' << y << ' ' << z;
         }
   }
 }
@@ -58,7 +63,8 @@ TEST(Pyramid, CoarsensUntilAWideMapFitsItsBudget) {
   map.insert({100000, 100000, 0});
   const Pyramid pyramid(map, {.resolution_m = 0.08, .levels = 2, .max_cells = 1e6});
   EXPECT_GE(pyramid.resolution_m(), 1.28);
-  EXPECT_TRUE(pyramid.level(0).test(voxel_at(center({100000, 100000, 0}, 0.02), pyramid.resolution_m())));
+  EXPECT_TRUE(
+      pyramid.level(0).test(voxel_at(center({100000, 100000, 0}, 0.02), pyramid.resolution_m())));
 }
 
 TEST(Pyramid, OfAnEmptyMapIsEmpty) { EXPECT_FALSE(Pyramid(VoxelMap()).level(0).test({0, 0, 0})); }

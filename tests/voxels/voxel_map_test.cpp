@@ -13,7 +13,8 @@ std::vector<Voxel> random_voxels(unsigned seed, int count, int extent) {
   std::mt19937 random(seed);
   std::uniform_int_distribution<int> coordinate(-extent, extent);
   std::vector<Voxel> voxels;
-  for (int i = 0; i < count; ++i) voxels.push_back({coordinate(random), coordinate(random), coordinate(random)});
+  for (int i = 0; i < count; ++i)
+    voxels.push_back({coordinate(random), coordinate(random), coordinate(random)});
   return voxels;
 }
 
@@ -23,7 +24,8 @@ TEST(VoxelMap, AgreesWithAnOrderedSetOnRandomVoxels) {
   std::set<Voxel> reference;
   for (const auto& v : voxels) EXPECT_EQ(map.insert(v), reference.insert(v).second);
   EXPECT_EQ(map.size(), reference.size());
-  for (const auto& v : random_voxels(2, 50000, 70)) EXPECT_EQ(map.contains(v), reference.contains(v));
+  for (const auto& v : random_voxels(2, 50000, 70))
+    EXPECT_EQ(map.contains(v), reference.contains(v));
   std::set<Voxel> visited;
   map.for_each_voxel([&](const Voxel& v) { EXPECT_TRUE(visited.insert(v).second); });
   EXPECT_EQ(visited, reference);
@@ -33,7 +35,8 @@ TEST(VoxelMap, DirectoryGrowsWithFarApartBlocks) {
   VoxelMap map;
   const auto voxels = random_voxels(3, 20000, kVoxelLimit);
   for (const auto& v : voxels) map.insert(v);
-  EXPECT_TRUE(std::all_of(voxels.begin(), voxels.end(), [&](const Voxel& v) { return map.contains(v); }));
+  EXPECT_TRUE(
+      std::all_of(voxels.begin(), voxels.end(), [&](const Voxel& v) { return map.contains(v); }));
   EXPECT_FALSE(map.contains({1, 2, 3}));
 }
 
@@ -52,7 +55,8 @@ TEST(VoxelMap, HashDependsOnTheSetAlone) {
 TEST(VoxelMap, BlocksCarryAMapToAnother) {
   VoxelMap map, copy;
   for (const auto& v : random_voxels(5, 5000, 50)) map.insert(v);
-  for (std::size_t i = 0; i < map.block_count(); ++i) EXPECT_TRUE(copy.set_block(map.block_position(i), map.block(i)));
+  for (std::size_t i = 0; i < map.block_count(); ++i)
+    EXPECT_TRUE(copy.set_block(map.block_position(i), map.block(i)));
   EXPECT_EQ(copy.hash(), map.hash());
   EXPECT_EQ(copy.size(), map.size());
   EXPECT_FALSE(copy.set_block(map.block_position(0), map.block(0)));
