@@ -3,12 +3,15 @@
 # voxlist_library(NAME DEPENDS...): target voxlist_NAME from common/NAME.
 function(voxlist_library name)
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp)
-  if(NOT sources)
-    return()
+  set(kind STATIC)
+  set(scope PUBLIC)
+  if(NOT sources) # headers alone
+    set(kind INTERFACE)
+    set(scope INTERFACE)
   endif()
-  add_library(voxlist_${name} STATIC ${sources})
-  target_include_directories(voxlist_${name} PUBLIC ${CMAKE_SOURCE_DIR}/common)
-  target_link_libraries(voxlist_${name} PUBLIC ${ARGN})
+  add_library(voxlist_${name} ${kind} ${sources})
+  target_include_directories(voxlist_${name} ${scope} ${CMAKE_SOURCE_DIR}/common)
+  target_link_libraries(voxlist_${name} ${scope} ${ARGN})
 endfunction()
 
 # voxlist_program(NAME DEPENDS...): build/bin/NAME from services/NAME. Everything but main.cpp also

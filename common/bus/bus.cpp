@@ -143,12 +143,13 @@ void Bus::subscribe_encoded(const std::string& channel, Check check, Take take, 
                                Subscription{channel, check, std::move(take), delivery, {}});
 }
 
-bool Bus::handle(std::chrono::milliseconds timeout) {
+bool Bus::handle(std::chrono::milliseconds timeout, int wake_fd) {
   using Received = Transport::Received;
   const auto receiver = [this](const RawMessage& message) { impl_->receive(message); };
   Received last = Received::kMessage;
   for (int n = 0; n < impl_->transport->batch() && last == Received::kMessage; ++n) {
-    last = impl_->transport->receive(n == 0 ? timeout : std::chrono::milliseconds(0), receiver);
+    last = impl_->transport->receive(n == 0 ? timeout : std::chrono::milliseconds(0), wake_fd,
+                                     receiver);
   }
   impl_->deliver_waiting();
   return last != Received::kEnded;

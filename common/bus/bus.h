@@ -82,9 +82,10 @@ class Bus {
   }
 
   /// Waits up to `timeout` for a message, then handles all that wait (256 at most). A signal ends
-  /// the wait early. False: nothing will come any more, because the log has ended or the connection
+  /// the wait early, and so does `wake_fd` when it can be read: a device, for the service to look
+  /// at. False: nothing will come any more, because the log has ended or the connection
   /// broke.
-  bool handle(std::chrono::milliseconds timeout);
+  bool handle(std::chrono::milliseconds timeout, int wake_fd = -1);
 
   /// What happened so far, by channel.
   const Counters& counters() const;

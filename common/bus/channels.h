@@ -9,7 +9,9 @@ class localisation_t;
 class map_octree_t;
 class map_request_t;
 class map_update_t;
+class mirror_state_t;
 class obstacles_t;
+class planar_lidar_t;
 class pointcloud_t;
 class pose_t;
 
@@ -19,12 +21,21 @@ struct Channel {
   const char* name;
 };
 
+/// One line of the 2D laser: ranges in metres, +infinity beyond the maximum, NaN without a
+/// measurement; intensity 1 where the receiver was dazzled (no intensities: nowhere). Frame: laser.
+/// Rate: 75 Hz. From laser_driver to mirror_monitor, cloud_assembler.
+inline constexpr Channel<planar_lidar_t> kLaser{"LASER"};
+
+/// Where the scanner's mirror is. Frame: scanner. Rate: each line of the laser.
+/// From mirror_monitor to cloud_assembler.
+inline constexpr Channel<mirror_state_t> kMirror{"MIRROR"};
+
 /// One whole 3D scan. Frame: base, at the sweep's end. Rate: about 1 Hz.
-/// From the scan source (or any 3D laser) to localiser, mapper, obstacle_detector.
+/// From cloud_assembler (or any 3D laser) to localiser, mapper, obstacle_detector.
 inline constexpr Channel<pointcloud_t> kCloud{"CLOUD"};
 
 /// A part of a sweep, for low latency. Frame: base, at the part's end. Rate: about 15 Hz.
-/// From the scan source to obstacle_detector.
+/// From cloud_assembler to obstacle_detector.
 inline constexpr Channel<pointcloud_t> kCloudSlice{"CLOUD_SLICE"};
 
 /// Dead reckoning. Frame: odom (drifts, never jumps). Rate: 20-100 Hz.

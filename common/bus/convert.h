@@ -6,6 +6,8 @@
 
 #include "bus/channels.h"
 #include "geometry/cloud.h"
+#include "scanner/laser_line.h"
+#include "scanner/mirror_state.h"
 
 namespace voxlist {
 
@@ -51,6 +53,20 @@ std::optional<StampedPose3> from_message(const pose_t& message);
 /// Nullopt unless pose, utime and index are sane and origins are as many as points, or none.
 /// Points as for pointcloud_t.
 std::optional<PosedCloud> from_message(const keyframe_t& message);
+
+/// Most beams that a line may have: half a turn in steps of 0.1 deg.
+inline constexpr std::size_t kMaxBeams = 1801;
+
+/// Nullopt unless utime and angles are sane, ranges are 1 to kMaxBeams, and intensities are as many
+/// or none. Ranges that are negative or beyond kMaxPoint_m become NaN.
+std::optional<LaserLine> from_message(const planar_lidar_t& message);
+
+/// Nullopt unless utime, state and numbers are sane.
+std::optional<MirrorState> from_message(const mirror_state_t& message);
+
+planar_lidar_t to_message(const LaserLine& line);
+
+mirror_state_t to_message(const MirrorState& state);
 
 /// `seq` counts up by one a message.
 pointcloud_t to_message(const Cloud& cloud, const std::string& frame_id, std::int32_t seq);

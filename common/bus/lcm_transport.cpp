@@ -82,11 +82,14 @@ class LcmTransport : public Transport {
   }
 
   // Polls by itself, so that a signal (EINTR) can be told from a broken connection.
-  Received receive(std::chrono::milliseconds timeout, const Receiver& receiver) override {
-    pollfd readable{.fd = fd_, .events = POLLIN, .revents = 0};
-    const int ready = poll(&readable, 1, static_cast<int>(timeout.count()));
+  Received receive(std::chrono::milliseconds timeout, int wake_fd,
+                   const Receiver& receiver) override {
+    // poll() passes over a negative descriptor.
+    pollfd readable[] = {{.fd = fd_, .events = POLLIN, .revents = 0},
+                         {.fd = wake_fd, .events = POLLIN, .revents = 0}};
+    const int ready = poll(readable, 2, static_cast<int>(timeout.count()));
     if (ready < 0) return errno == EINTR ? Received::kNothing : Received::kEnded;
-    if (ready == 0) return Received::kNothing;
+    if (readable[0].revents == 0) return Received::kNothing;
     receiver_ = &receiver;
     failures_ = lcm_handle(lcm_.get()) == 0 ? 0 : failures_ + 1;
     return failures_ > kMaxFailuresInARow ? Received::kEnded : Received::kMessage;

@@ -5,7 +5,9 @@
 #include <voxlist/map_octree_t.hpp>
 #include <voxlist/map_request_t.hpp>
 #include <voxlist/map_update_t.hpp>
+#include <voxlist/mirror_state_t.hpp>
 #include <voxlist/obstacles_t.hpp>
+#include <voxlist/planar_lidar_t.hpp>
 #include <voxlist/pointcloud_t.hpp>
 #include <voxlist/pose_t.hpp>
 
@@ -89,11 +91,22 @@ Fault check_lengths(const map_update_t& message) {
   return Lengths().array(message.n_blocks, message.blocks, 76).fault();
 }
 
+Fault check_lengths(const mirror_state_t& message) {
+  return Lengths().text(message.reason).fault();
+}
+
 Fault check_lengths(const obstacles_t& message) {
   return Lengths()
       .array(message.n_bearings, message.ranges_m, 4)
       .rows(message.n_cells, message.cells, 2)
       .array(message.n_cells, message.types, 4)
+      .fault();
+}
+
+Fault check_lengths(const planar_lidar_t& message) {
+  return Lengths()
+      .array(message.nranges, message.ranges, 4)
+      .array(message.nintensities, message.intensities, 4)
       .fault();
 }
 

@@ -14,7 +14,7 @@ class LogTransport : public Transport {
 
   bool send(const std::string&, Bytes) override { return false; }
 
-  Received receive(std::chrono::milliseconds, const Receiver& receiver) override {
+  Received receive(std::chrono::milliseconds, int, const Receiver& receiver) override {
     while (const std::optional<Event> event = log_.next()) {
       if (!channels_.contains(event->channel)) continue;
       receiver({event->channel, event->bytes, event->utime_us});

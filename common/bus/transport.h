@@ -35,8 +35,10 @@ class Transport {
   /// False: it could not be sent.
   virtual bool send(const std::string& channel, Bytes bytes) = 0;
 
-  /// Hands one message to `receiver`, waiting for it up to `timeout`.
-  virtual Received receive(std::chrono::milliseconds timeout, const Receiver& receiver) = 0;
+  /// Hands one message to `receiver`, waiting for it up to `timeout`, or until `wake_fd` (unless
+  /// -1) can be read.
+  virtual Received receive(std::chrono::milliseconds timeout, int wake_fd,
+                           const Receiver& receiver) = 0;
 
   /// How many messages one Bus::handle() may take.
   virtual int batch() const = 0;

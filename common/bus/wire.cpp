@@ -133,12 +133,25 @@ void walk(WireReader& in, const map_update_t*) {
   in.array(kVoxelBlock);
 }
 
+void walk(WireReader& in, const mirror_state_t*) {
+  in.skip(kInt64 + 2 * kInt8);
+  in.text();
+  in.skip(2 * kDouble + kInt64 + 2 * kDouble);
+}
+
 void walk(WireReader& in, const obstacles_t*) {
   in.skip(kInt64 + 2 * kFloat);
   const std::int64_t n_bearings = in.count(kFloat);
   in.skip(2 * kFloat + n_bearings * kFloat);
   const std::int64_t n_cells = in.count(2 * kFloat + kInt32);
   in.skip(n_cells * (2 * kFloat + kInt32));
+}
+
+void walk(WireReader& in, const planar_lidar_t*) {
+  in.skip(kInt64);
+  in.array(kFloat);
+  in.array(kFloat);
+  in.skip(2 * kFloat);
 }
 
 void walk(WireReader& in, const pointcloud_t*) {

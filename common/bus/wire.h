@@ -84,7 +84,9 @@ void walk(WireReader& in, const localisation_t*);
 void walk(WireReader& in, const map_octree_t*);
 void walk(WireReader& in, const map_request_t*);
 void walk(WireReader& in, const map_update_t*);
+void walk(WireReader& in, const mirror_state_t*);
 void walk(WireReader& in, const obstacles_t*);
+void walk(WireReader& in, const planar_lidar_t*);
 void walk(WireReader& in, const pointcloud_t*);
 void walk(WireReader& in, const pose_t*);
 
@@ -96,7 +98,9 @@ Fault check_lengths(const localisation_t& message);
 Fault check_lengths(const map_octree_t& message);
 Fault check_lengths(const map_request_t& message);
 Fault check_lengths(const map_update_t& message);
+Fault check_lengths(const mirror_state_t& message);
 Fault check_lengths(const obstacles_t& message);
+Fault check_lengths(const planar_lidar_t& message);
 Fault check_lengths(const pointcloud_t& message);
 Fault check_lengths(const pose_t& message);
 

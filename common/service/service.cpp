@@ -73,7 +73,7 @@ bool run_until_stopped(Bus& bus, Health& health, RunningService& service) {
   std::string told_error;
   bool open = true;
   while (open && !g_stop_requested) {
-    open = bus.handle(kTick);
+    open = bus.handle(kTick, service.wake_fd());
     const std::int64_t now_us = clock.now_us();
     service.tick(now_us);
     if (const auto message = health.due(now_us, bus.counters())) bus.publish(kHealth, *message);

@@ -28,6 +28,9 @@ class RunningService {
   /// never jumps.
   virtual void tick(std::int64_t now_us) = 0;
 
+  /// A descriptor that calls for tick() at once when it can be read; -1 when there is none now.
+  virtual int wake_fd() const = 0;
+
   /// Called once before a wanted end.
   virtual void stop() = 0;
 };
@@ -42,13 +45,17 @@ int run_service(int argc, char** argv, const ServiceInfo& info, const Section& s
                 const MakeService& make);
 
 /// The main of a service: Service is made as Service(Bus&, Health&, const Config&) and may have
-/// tick(now_us) and stop().
+/// tick(now_us), stop(), and wake_fd() for a device that it reads in tick().
 template <class Service, class Config>
 int run_service(int argc, char** argv, const ServiceInfo& info) {
   struct Adapter : RunningService {
     Adapter(Bus& bus, Health& health, const Config& config) : service(bus, health, config) {}
     void tick([[maybe_unused]] std::int64_t now_us) override {
       if constexpr (requires(Service & s) { s.tick(now_us); }) service.tick(now_us);
+    }
+    int wake_fd() const override {
+      if constexpr (requires(const Service& s) { s.wake_fd(); }) return service.wake_fd();
+      return -1;
     }
     void stop() override {
       if constexpr (requires(Service & s) { s.stop(); }) service.stop();

@@ -1,6 +1,7 @@
 #include "bus/bus.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -245,6 +246,17 @@ TEST(PrivateNetwork, DISABLED_CarriesLargeClouds) {
     receiver.handle(milliseconds(2000));
   }
   EXPECT_EQ(seen, std::vector<std::size_t>(20, 600'000));
+}
+
+TEST(Bus, IsWokenByADeviceThatCanBeRead) {
+  int ends[2];
+  ASSERT_EQ(pipe(ends), 0);
+  ASSERT_EQ(write(ends[1], "x", 1), 1);
+  Bus bus({.url = "memq://"});
+  constexpr std::chrono::hours kLongerThanTheTest(1);
+  EXPECT_TRUE(bus.handle(kLongerThanTheTest, ends[0]));
+  close(ends[0]);
+  close(ends[1]);
 }
 
 }  // namespace

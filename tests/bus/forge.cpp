@@ -9,7 +9,9 @@
 #include <voxlist/map_octree_t.hpp>
 #include <voxlist/map_request_t.hpp>
 #include <voxlist/map_update_t.hpp>
+#include <voxlist/mirror_state_t.hpp>
 #include <voxlist/obstacles_t.hpp>
+#include <voxlist/planar_lidar_t.hpp>
 #include <voxlist/pointcloud_t.hpp>
 #include <voxlist/pose_t.hpp>
 
@@ -109,6 +111,17 @@ class Filler {
     rows(static_cast<std::size_t>(m.n_cells), 2, m.cells);
   }
 
+  void fill(mirror_state_t& m) {
+    fill_all(m.utime, m.state, m.angle_known, m.reason, m.angle_rad, m.rate_radps,
+             m.half_revolutions, m.residual_rad, m.step_rad);
+  }
+
+  void fill(planar_lidar_t& m) {
+    fill_all(m.utime, m.rad0, m.radstep);
+    list(m.nranges, m.ranges);
+    list(m.nintensities, m.intensities);
+  }
+
   void fill(pointcloud_t& m) {
     fill_all(m.utime, m.seq, m.frame_id);
     m.n_points = small_count();
@@ -147,10 +160,10 @@ Kind kind(Channel<M> channel) {
 }
 
 const std::vector<Kind>& kinds() {
-  static const std::vector<Kind> all = {kind(kCloud),     kind(kCloudSlice), kind(kOdometry),
-                                        kind(kPose),      kind(kTruth),      kind(kLocalisation),
-                                        kind(kMapUpdate), kind(kKeyframe),   kind(kMapRequest),
-                                        kind(kOctomap),   kind(kObstacles),  kind(kHealth)};
+  static const std::vector<Kind> all = {
+      kind(kCloud),        kind(kCloudSlice), kind(kOdometry), kind(kPose),       kind(kTruth),
+      kind(kLocalisation), kind(kMapUpdate),  kind(kKeyframe), kind(kMapRequest), kind(kOctomap),
+      kind(kObstacles),    kind(kLaser),      kind(kMirror),   kind(kHealth)};
   return all;
 }
 
