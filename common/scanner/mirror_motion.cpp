@@ -66,9 +66,8 @@ MirrorAt MirrorMotion::moved(const MirrorState& state, std::int64_t utime_us) co
     return {MirrorAt::Known::kYes, state.angle_rad + turned_rad, state.rate_radps};
   // The time of an edge may be a rounded microsecond early.
   constexpr double kEarly = 1e-3;
-  const double steps = std::floor(std::abs(state.rate_radps) * seconds_since(state, utime_us) /
-                                      state.step_rad +
-                                  kEarly);
+  const double steps = std::floor(
+      std::abs(state.rate_radps) * seconds_since(state, utime_us) / state.step_rad + kEarly);
   const double stepped_rad = std::copysign(state.step_rad, state.rate_radps) * steps;
   return {MirrorAt::Known::kYes, state.angle_rad + stepped_rad, state.rate_radps};
 }
