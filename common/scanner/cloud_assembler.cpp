@@ -191,11 +191,11 @@ void CloudAssembler::end_slice(Assembly& out) {
 void CloudAssembler::end_sweep(Assembly& out) {
   end_slice(out);
   if (sweep_.lines > 0) {
-    const double share = std::min(1.0, sweep_.lines / sweep_.whole_lines);
-    if (share < config_.min_line_share)
+    out.line_share = std::min(1.0, sweep_.lines / sweep_.whole_lines);
+    if (*out.line_share < config_.min_line_share)
       ++out.counts["CLOUD/too_few_lines"];
     else if (auto cloud = sweep_.points.finish(sweep_.end_us))
-      out.sweeps.push_back({std::move(*cloud), share});
+      out.clouds.push_back(std::move(*cloud));
     else
       ++out.counts["CLOUD/odometry_lost"];
   }

@@ -19,23 +19,19 @@
 
 namespace voxlist {
 
-/// One sweep, in base at the time when its last line's last beam left: the cloud's utime.
-struct Sweep {
-  Cloud cloud;
-
-  /// Which part of its lines were there to be used, 0..1.
-  double line_share = 1.0;
-};
-
 /// What became complete, oldest first, and what happened on the way.
 struct Assembly {
-  std::vector<Sweep> sweeps;
+  /// One for each sweep, in base at the time when its last line's last beam left: its utime.
+  std::vector<Cloud> clouds;
 
   /// Parts of sweeps, each in base at the time of its own last beam. Together they have the sweep's
   /// points.
   std::vector<Cloud> slices;
 
-  /// What was used and what was not, by reason, since the call before.
+  /// Which part of its lines the sweep had that ended last, 0..1, whether it was handed out or not.
+  std::optional<double> line_share;
+
+  /// What was used and what was not, by reason.
   /// Lines: LASER/assembled, missing (a hole in LASER's times), out_of_order, no_mirror_yet,
   /// no_odometry (both: waited too long), mirror_lost, mirror_unknown (MIRROR began too late, or
   /// has a hole), too_many_waiting, dead_side, time_started_anew.

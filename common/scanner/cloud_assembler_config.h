@@ -35,7 +35,7 @@ struct CloudAssemblerConfig {
     v("staircase", staircase,
       "the mirror stands still between the motor's steps; else it turns evenly");
     v("mirror_extrapolation_ms", mirror_extrapolation_ms,
-      "how long the mirror is trusted to turn on as MIRROR last said", 0.0, 1000.0);
+      "how long the mirror is trusted to turn on as MIRROR last said", 20.0, 1000.0);
     v("use_odometry", use_odometry,
       "put each beam where the robot was then; false: for a robot that stands, or has no ODOMETRY");
     v("odometry_extrapolation_ms", odometry_extrapolation_ms,
