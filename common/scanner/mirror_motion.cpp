@@ -64,10 +64,9 @@ MirrorAt MirrorMotion::moved(const MirrorState& state, std::int64_t utime_us) co
   const double turned_rad = state.rate_radps * seconds_since(state, utime_us);
   if (!staircase_ || state.step_rad <= 0.0)
     return {MirrorAt::Known::kYes, state.angle_rad + turned_rad, state.rate_radps};
-  // The time of an edge may be a rounded microsecond early.
-  constexpr double kEarly = 1e-3;
-  const double steps = std::floor(
-      std::abs(state.rate_radps) * seconds_since(state, utime_us) / state.step_rad + kEarly);
+  // Both times are rounded to microseconds: none of them may miss an edge by that.
+  const double since_s = seconds_since(state, utime_us) + 1e-6;
+  const double steps = std::floor(std::abs(state.rate_radps) * since_s / state.step_rad);
   const double stepped_rad = std::copysign(state.step_rad, state.rate_radps) * steps;
   return {MirrorAt::Known::kYes, state.angle_rad + stepped_rad, state.rate_radps};
 }
