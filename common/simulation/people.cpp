@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <optional>
 #include <utility>
 
 #include "simulation/path_planner.h"
@@ -13,8 +15,10 @@ namespace {
 using Eigen::Vector2d;
 using Path = std::vector<Vector2d>;
 
-constexpr double kPeriod = 0.1;    // s, of the motion's steps
-constexpr double kKeepAway = 1.0;  // m, from the robot
+constexpr double kPeriod = 0.1;     // s, of the motion's steps
+constexpr double kTurnRound = 1.0;  // m, from the robot
+constexpr double kNeverNearer = 0.55;
+constexpr int kTries = 50;  // for each person's way
 constexpr int kRoomsVisited = 3;
 constexpr TourConfig kRoom{0.25, 0.05, 1.8, 0.1};  // that a person needs
 constexpr std::uint64_t kStream = 201;
@@ -51,7 +55,8 @@ class Walker {
     const auto gap = [&](int direction) {
       return (at(along_m_ + direction * distance_m) - robot).norm();
     };
-    if (gap(direction_) < kKeepAway && gap(-direction_) > gap(direction_)) direction_ = -direction_;
+    if (gap(direction_) < kTurnRound && gap(-direction_) > gap(direction_))
+      direction_ = -direction_;
     const Vector2d before = at(along_m_);
     along_m_ += direction_ * distance_m;
     const Vector2d now = at(along_m_), way = now - before;
@@ -74,14 +79,17 @@ class Walker {
   int direction_ = 1;
 };
 
-Trajectory walk_along(const Path& path, const Trajectory& robot, double duration_s,
-                      double speed_mps, Random& random) {
+// Nothing when the robot comes too near all the same: it visits rooms that have but one door.
+std::optional<Trajectory> walk_along(const Path& path, const Trajectory& robot, double duration_s,
+                                     double speed_mps, Random& random) {
+  if (path.size() < 2) return std::nullopt;
   Walker walker(path);
   walker.place(random.uniform(0.0, walker.length_m()));
   std::vector<Pose2> poses;
   for (double t = 0.0; t <= duration_s + kPeriod; t += kPeriod) {
     const Pose2 robot_pose = robot.at(t);
     poses.push_back(walker.step(speed_mps * kPeriod, {robot_pose.x_m, robot_pose.y_m}));
+    if (distance_m(poses.back(), robot_pose) < kNeverNearer) return std::nullopt;
   }
   return Trajectory(kPeriod, std::move(poses));
 }
@@ -94,11 +102,11 @@ std::vector<Trajectory> walk(const Building& building, const Trajectory& robot, 
   if (config.count == 0 || building.rooms.empty()) return people;
   const PathPlanner planner(building, kRoom);
   Random random(seed, kStream);
-  for (int i = 0; i < config.count; ++i) {
+  const double walk_s = std::max(duration_s, robot.duration_s());
+  for (int i = 0; i < config.count * kTries && std::ssize(people) < config.count; ++i) {
     const Path path = closed_path(planner, building.rooms, random);
-    if (path.size() > 1)
-      people.push_back(walk_along(path, robot, std::max(duration_s, robot.duration_s()),
-                                  config.speed_mps, random));
+    const auto person = walk_along(path, robot, walk_s, config.speed_mps, random);
+    if (person) people.push_back(*person);
   }
   return people;
 }

@@ -17,8 +17,9 @@ struct PeopleConfig {
 };
 
 /// People who walk from room to room for ever, on closed paths of their own, at one speed. Near the
-/// robot they turn round rather than walk into it. One trajectory for each, as long as the robot's
-/// and at least `duration_s`. Equal arguments give equal bits.
+/// robot they turn round, and ways on which it would run into them are not taken. One trajectory
+/// for each, as long as the robot's and at least `duration_s`; fewer than asked for when the robot
+/// leaves no room for them. Equal arguments give equal bits.
 std::vector<Trajectory> walk(const Building& building, const Trajectory& robot, double duration_s,
                              const PeopleConfig& config, std::uint64_t seed);
 

@@ -26,7 +26,7 @@ struct Plane {
 struct Inside {
   double from = -kInfinity, to = kInfinity;
   std::size_t entered = 0;
-  bool any() const { return from < to && from > 0.0; }
+  bool any() const { return from <= to && from > 0.0; }
 };
 
 template <std::size_t N>
@@ -103,8 +103,8 @@ std::optional<double> TurningMirror::arm_range_m(const Vector3d& origin, const V
     const std::array<Plane, 2> ends{{{Vector3d::UnitY(), y1}, {-Vector3d::UnitY(), -y0}}};
     const Inside rod = inside_cylinder(middle, config_.arm_radius_m, o, d);
     const Inside span = inside(ends, o, d);
-    const double from = std::max(rod.from, span.from);
-    if (from > 0.0 && from < std::min(rod.to, span.to)) nearest = std::min(nearest, from);
+    const Inside both{std::max(rod.from, span.from), std::min(rod.to, span.to), 0};
+    if (both.any()) nearest = std::min(nearest, both.from);
   }
   return nearest < kInfinity ? std::optional(nearest) : std::nullopt;
 }
