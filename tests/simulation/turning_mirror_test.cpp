@@ -148,8 +148,8 @@ TEST(TurningMirror, HasArmsThatBlockTheirOwnBeamsAtTheirOwnAngles) {
       const auto within = [](double value, double of, double what) {
         return std::abs(value - what) < of;
       };
-      const bool near_an_end = within(beam_deg, 2.0, 25.0) || within(beam_deg, 2.0, 60.0) ||
-                               within(beam_deg, 2.0, 120.0) || within(beam_deg, 2.0, 155.0) ||
+      const bool near_an_end = within(beam_deg, 4.0, 25.0) || within(beam_deg, 4.0, 60.0) ||
+                               within(beam_deg, 4.0, 120.0) || within(beam_deg, 4.0, 155.0) ||
                                within(std::abs(psi_deg - 90.0), 1.0, 6.0) ||
                                within(std::abs(psi_deg - 265.0), 1.0, 6.0);
       if (near_an_end) continue;
