@@ -10,7 +10,8 @@ namespace {
 // An arm's outermost beams may pass its end, or see only half of it.
 constexpr double kEndMargin_rad = 2.0 * std::numbers::pi / 180.0;
 
-// Fewer beams at one end of a line than these are noise, not an arm that comes or leaves.
+// Fewer beams at one end of a line than these are noise, not an arm that comes or leaves; and the
+// picture of one that does must have so many contradictions less than that of one that does not.
 constexpr std::size_t kMinPart = 3;
 
 // Of the arm's beams, how many may contradict the picture before the line says nothing.
@@ -39,7 +40,8 @@ Split best_split(const std::vector<Beam>& beams) {
   std::size_t blocked = 0;
   for (const Beam& beam : beams) blocked += beam.blocked;
   const std::size_t free = beams.size() - blocked;
-  Split best{0, blocked > free, std::min(blocked, free)};
+  const Split whole{0, blocked > free, std::min(blocked, free)};
+  Split best = whole;
   std::size_t blocked_before = 0;
   for (std::size_t i = 1; i < beams.size(); ++i) {
     blocked_before += beams[i - 1].blocked;
@@ -50,13 +52,18 @@ Split best_split(const std::vector<Beam>& beams) {
     if (coming < best.contradictions) best = {i, false, coming};
     if (leaving < best.contradictions) best = {i, true, leaving};
   }
-  return best;
+  return best.contradictions + kMinPart <= whole.contradictions ? best : whole;
 }
 
 }  // namespace
 
-ArmDetector::ArmDetector(std::vector<BlockingArm> arms, double range_max_m)
-    : arms_(std::move(arms)), range_max_m_(range_max_m), watches_(arms_.size()) {}
+ArmDetector::ArmDetector(std::vector<BlockingArm> arms, double height_max_m)
+    : arms_(std::move(arms)), height_max_m_(height_max_m), watches_(arms_.size()) {
+  for (const BlockingArm& arm : arms_) {
+    const double turned_rad = std::numbers::pi - arm.last_beam_rad;
+    fan_begin_rad_ = std::min({fan_begin_rad_, arm.first_beam_rad, turned_rad});
+  }
+}
 
 void ArmDetector::reset() {
   watches_.assign(arms_.size(), {});
@@ -84,13 +91,19 @@ std::vector<ArmPassage> ArmDetector::add(const LaserLine& line) {
   return passages;
 }
 
+bool ArmDetector::is_near(const LaserLine& line, std::size_t beam) const {
+  return line.ranges_m[beam] * std::sin(line.angle_rad(beam)) < height_max_m_;
+}
+
 bool ArmDetector::shows_edge(const LaserLine& line, const BlockingArm& arm) const {
   std::size_t others = 0, near = 0;
   for (std::size_t i = 0; i < line.ranges_m.size(); ++i) {
     const double angle_rad = line.angle_rad(i);
-    if (angle_rad >= arm.first_beam_rad && angle_rad <= arm.last_beam_rad) continue;
+    const bool own = angle_rad >= arm.first_beam_rad && angle_rad <= arm.last_beam_rad;
+    if (own || angle_rad < fan_begin_rad_ || angle_rad > std::numbers::pi - fan_begin_rad_)
+      continue;
     others += !std::isnan(line.ranges_m[i]);
-    near += line.ranges_m[i] < range_max_m_;
+    near += is_near(line, i);
   }
   return static_cast<double>(near) > kMaxOthersNear + kMaxShareNear * static_cast<double>(others);
 }
@@ -106,9 +119,8 @@ std::optional<ArmDetector::Sight> ArmDetector::look(const LaserLine& line,
       continue;
     }
     ++own_all;
-    const float range_m = line.ranges_m[i];
-    if (std::isnan(range_m)) continue;
-    own.push_back({line.utime_us + std::llround(beam_delay_us(line, i)), range_m < range_max_m_});
+    if (std::isnan(line.ranges_m[i])) continue;
+    own.push_back({line.utime_us + std::llround(beam_delay_us(line, i)), is_near(line, i)});
   }
   if (own.size() < kMinPart || 4 * own.size() < own_all) return std::nullopt;
   const Split split = best_split(own);

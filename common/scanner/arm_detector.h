@@ -37,13 +37,15 @@ struct ArmPassage {
   }
 };
 
-/// Finds the passages of the blocking arms in the laser's lines. Returns nearer than the limit on
-/// an arm's beams are the arm, unless other beams are near too: then it is the edge of the mirror's
-/// plate. Beams without a measurement say nothing; lost lines widen the spans.
+/// Finds the passages of the blocking arms in the laser's lines. What an arm's beams meet lower
+/// than the mirror is the arm, unless the beams between and beside the arms meet something there
+/// too: then it is the edge of the mirror's plate. Beams without a measurement say nothing; lost
+/// lines widen the spans.
 class ArmDetector {
  public:
-  /// `range_max_m`: nearer than any beam's way to the mirror and back into the world.
-  ArmDetector(std::vector<BlockingArm> arms, double range_max_m);
+  /// `height_max_m`: above the laser's optical centre, higher than the arms in front of it and
+  /// lower than the mirror's axis.
+  ArmDetector(std::vector<BlockingArm> arms, double height_max_m);
 
   /// Takes the next line; lines come in the order of time. Returns the passages that it ends.
   std::vector<ArmPassage> add(const LaserLine& line);
@@ -63,12 +65,14 @@ class ArmDetector {
     std::optional<TimeSpan> enter;
   };
 
+  bool is_near(const LaserLine& line, std::size_t beam) const;
   bool shows_edge(const LaserLine& line, const BlockingArm& arm) const;
   std::optional<Sight> look(const LaserLine& line, const BlockingArm& arm) const;
   static std::optional<ArmPassage> follow(Watch& watch, const Sight& sight);
 
   std::vector<BlockingArm> arms_;
-  double range_max_m_;
+  double height_max_m_;
+  double fan_begin_rad_ = 1.5;  // beams from here to pi minus this meet the mirror
   std::vector<Watch> watches_;
   std::optional<std::int64_t> last_line_us_;
 };

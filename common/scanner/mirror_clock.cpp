@@ -78,7 +78,7 @@ class MirrorClock::Impl {
       : config_(config),
         step_rad_(kTurn_rad / config.steps_per_revolution),
         direction_(wanted_direction()),
-        detector_(config.arms, config.arm_range_max_m),
+        detector_(config.arms, config.arm_height_max_m),
         arm_rate_(config.arms, direction_),
         seen_us_(config.arms.size()) {}
 
@@ -150,6 +150,12 @@ class MirrorClock::Impl {
 
   double clock_rate_radps() const { return direction_ * step_rad_ / (clock_.period_us() * 1e-6); }
   double arms_rate_radps() const { return even_.rate_radps + arms_track_->rate_radps(); }
+
+  // Without a clock nobody knows on which stop of its stair the mirror stands.
+  double arms_residual_rad() const {
+    const double stair_rad = config_.staircase ? step_rad_ / std::sqrt(12.0) : 0.0;
+    return std::hypot(arms_track_->residual_rad(), stair_rad);
+  }
 
   void start_clock_track() {
     clock_generation_ = clock_.generation();
@@ -311,6 +317,8 @@ class MirrorClock::Impl {
       stalled_ = true;
       stalled_us_ = now_us_;
       ++counts_.stalls;
+      detector_.reset();
+      arm_rate_.reset();
       if (clock_track_) clock_track_->doubt();
       if (arms_track_) arms_track_->doubt();
     } else if (stalled_ && watch_.turning()) {
@@ -336,7 +344,7 @@ class MirrorClock::Impl {
     // A clock that has just come back is not yet known as well as the arms' own line.
     const bool clock_is_better =
         by_clock && (!by_arms || clock_track_->passages() >= kGrownPassages ||
-                     clock_track_->residual_rad() <= arms_track_->residual_rad());
+                     clock_track_->residual_rad() <= arms_residual_rad());
     if (clock_is_better) {
       answer_by_clock(state);
     } else if (by_arms && !arms_silent()) {
@@ -369,7 +377,7 @@ class MirrorClock::Impl {
     state.angle_rad =
         wrap_turn(even_.angle_rad(now_us_) + arms_track_->offset_rad(seconds(now_us_)));
     state.rate_radps = arms_rate_radps();
-    state.residual_rad = arms_track_->residual_rad();
+    state.residual_rad = arms_residual_rad();
   }
 
   std::string why_searching() const {
@@ -449,6 +457,7 @@ class MirrorClock::Impl {
 };
 
 MirrorClock::MirrorClock(const MirrorClockConfig& config) : impl_(std::make_unique<Impl>(config)) {}
+MirrorClock::MirrorClock(MirrorClock&&) noexcept = default;
 MirrorClock::~MirrorClock() = default;
 
 void MirrorClock::add_edge(std::int64_t utime_us) { impl_->add_edge(utime_us); }

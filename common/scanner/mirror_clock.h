@@ -15,8 +15,8 @@ struct MirrorClockConfig {
   /// One for a single-sided mirror, or two.
   std::vector<BlockingArm> arms;
 
-  /// A return nearer than this is an arm or the plate's edge: see ArmDetector.
-  double arm_range_max_m = 0.11;
+  /// What is met lower than this above the laser is an arm or the plate's edge: see ArmDetector.
+  double arm_height_max_m = 0.075;
 
   /// Clock edges for one turn of the mirror.
   int steps_per_revolution = 400;
@@ -52,6 +52,7 @@ class MirrorClock {
   };
 
   explicit MirrorClock(const MirrorClockConfig& config);
+  MirrorClock(MirrorClock&&) noexcept;
   ~MirrorClock();
 
   /// Takes an edge of the clock. Edges may come somewhat later than lines of the same time.

@@ -6,7 +6,7 @@
 namespace voxlist {
 namespace {
 
-constexpr std::int64_t kMaxGap_us = 2'000'000;
+constexpr std::int64_t kMaxGap_us = 2'000'000, kOutOfOrder_us = 100'000;
 constexpr std::size_t kFirstEdges = 17;
 
 // The fit remembers about so many edges: jitter of 0.2 ms averages to 0.02 ms, while the wall
@@ -16,8 +16,12 @@ constexpr double kMemory_edges = 500.0;
 // Parts of a period off its place, an edge is not this clock's.
 constexpr double kMaxOff = 0.3;
 
-// Of about the last 32 edges, so many in the wrong place or after a hole: another clock.
-constexpr double kBadnessMemory = 32.0, kMaxBadness = 14.0;
+// Of about the last 64 edges, so many that did not follow the one before by a period: another
+// clock.
+constexpr double kBadnessMemory = 64.0, kMaxBadness = 30.0;
+
+// What the median of the first gaps is worth.
+constexpr double kMedianEdges = 4.0;
 
 }  // namespace
 
@@ -32,7 +36,7 @@ void StepClock::add_edge(std::int64_t utime_us) {
   ++counts_.edges;
   if (origin_us_) {
     const double gap_us = static_cast<double>(utime_us - *origin_us_) - last_raw_us_;
-    if (gap_us > kMaxGap_us || gap_us < -period_us_) reset();
+    if (gap_us > kMaxGap_us || gap_us < -kOutOfOrder_us) reset();
   }
   if (!origin_us_) origin_us_ = utime_us;
   last_raw_us_ = static_cast<double>(utime_us - *origin_us_);
@@ -52,7 +56,7 @@ void StepClock::learn() {
   if (*middle <= 0.0) return;
   period_us_ = *middle;
   fitted_us_ = edges_us.front();
-  fitted_edges_ = 1.0;
+  fitted_edges_ = kMedianEdges;
   for (std::size_t i = 1; i < edges_us.size() && ready(); ++i) follow(edges_us[i]);
 }
 
@@ -60,8 +64,7 @@ void StepClock::follow(double since_us) {
   const double periods = (since_us - fitted_us_) / period_us_;
   const auto steps = std::llround(periods);
   const bool strange = std::abs(periods - static_cast<double>(steps)) > kMaxOff;
-  const bool bad = strange || steps > 1;
-  badness_ += (bad ? 1.0 : 0.0) - badness_ / kBadnessMemory;
+  badness_ += (strange || steps != 1 ? 1.0 : 0.0) - badness_ / kBadnessMemory;
   if (badness_ > kMaxBadness) return reset();
   if (strange) {
     ++counts_.strange;
