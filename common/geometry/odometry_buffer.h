@@ -8,8 +8,8 @@
 
 namespace voxlist {
 
-/// The newest odometry, to be asked where it stood when a cloud was taken. Live and from a log it
-/// gives the same answers, as long as odometry comes before the cloud of the same time.
+/// The newest odometry, to be asked where it stood at a time. Live and from a log it gives the same
+/// answers, as long as odometry comes before what is asked about.
 class OdometryBuffer {
  public:
   /// Odometry older than this says nothing of now: the wheels' computer is dead (us).
@@ -26,7 +26,18 @@ class OdometryBuffer {
   /// when it is older than kMaxAge_us then.
   std::optional<Pose2> at(std::int64_t utime_us) const;
 
+  /// The pose at the time itself, for what moves between two measurements: on the arc between its
+  /// neighbours, or for at most `max_extrapolation_us` after the newest moved on at the last
+  /// velocity. Nothing before the oldest, later than that, without two poses to tell a velocity,
+  /// or where neighbours are more than kMaxAge_us apart.
+  std::optional<Pose2> estimate(std::int64_t utime_us, std::int64_t max_extrapolation_us) const;
+
+  /// Time of the newest pose; nothing when there is none.
+  std::optional<std::int64_t> newest_utime_us() const;
+
  private:
+  std::optional<Pose2> extrapolated(std::int64_t utime_us) const;
+
   std::deque<StampedPose2> poses_;  // by time
 };
 

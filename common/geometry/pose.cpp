@@ -26,6 +26,16 @@ Eigen::Vector3d Pose2::operator*(const Eigen::Vector3d& p_b) const {
   return {x_m + c * p_b.x() - s * p_b.y(), y_m + s * p_b.x() + c * p_b.y(), p_b.z()};
 }
 
+Pose2 part_of(const Pose2& motion, double share) {
+  // An arc's chord is as long as the sine of half its turn, and points half its turn inwards.
+  const double half_rad = motion.yaw_rad / 2.0;
+  const double length =
+      std::abs(half_rad) < 1e-6 ? share : std::sin(share * half_rad) / std::sin(half_rad);
+  const Pose2 inwards{0.0, 0.0, (share - 1.0) * half_rad};
+  const Pose2 chord = inwards * Pose2{length * motion.x_m, length * motion.y_m, 0.0};
+  return {chord.x_m, chord.y_m, wrap_angle(share * motion.yaw_rad)};
+}
+
 Pose3 to_pose3(const Pose2& pose) {
   Pose3 T = Pose3::Identity();
   T.translation() << pose.x_m, pose.y_m, 0.0;

@@ -26,6 +26,10 @@ struct Pose2 {
   bool operator==(const Pose2&) const = default;
 };
 
+/// The first `share` of a motion that is made at constant velocity and turn rate (0: none of it, 1:
+/// all, 2: twice as far).
+Pose2 part_of(const Pose2& motion, double share);
+
 /// A spatial rigid transform T_a_b.
 using Pose3 = Eigen::Isometry3d;
 

@@ -8,9 +8,9 @@
 
 namespace voxlist {
 
-/// One telegram of the SICK LMS 2xx protocol: 02, address, length, command, data, CRC (SICK telegram
-/// listing 8007954, section 4.2). Replies have bit 7 set in address and command, and their last
-/// data byte is the device's status.
+/// One telegram of the SICK LMS 2xx protocol: 02, address, length, command, data, CRC (SICK
+/// telegram listing 8007954, section 4.2). Replies have bit 7 set in address and command, and their
+/// last data byte is the device's status.
 struct Lms200Telegram {
   std::uint8_t address = 0;
   std::uint8_t command = 0;
@@ -22,11 +22,19 @@ struct Lms200Telegram {
 /// Longest telegram: 401 values with both index bytes.
 inline constexpr std::size_t kMaxLms200TelegramBytes = 814;
 
+/// The bytes outside of telegrams: a request was understood, or was not.
+inline constexpr std::uint8_t kLms200Accepted = 0x06;
+inline constexpr std::uint8_t kLms200Refused = 0x15;
+
 /// SICK's own checksum of all bytes before it (section 9; one shift a byte, no CRC-16 of others).
 std::uint16_t lms200_crc(std::span<const std::uint8_t> bytes);
 
 /// The telegram's bytes, with length and CRC.
 std::vector<std::uint8_t> encode(const Lms200Telegram& telegram);
+
+/// Whether a device's reply, or a host's request, of this command can have so many data bytes.
+bool plausible_lms200_reply(std::uint8_t command, std::size_t data_bytes);
+bool plausible_lms200_request(std::uint8_t command, std::size_t data_bytes);
 
 /// What came from the device: a telegram, or one of its bytes outside of telegrams.
 struct Lms200Event {
@@ -43,6 +51,10 @@ struct Lms200Event {
 /// or CRC it goes on one byte later, so that no whole telegram behind the damage is missed.
 class Lms200Parser {
  public:
+  /// A telegram whose next byte does not come for so long is torn. The device leaves at most 14 ms
+  /// between bytes; USB adapters and a busy host add theirs.
+  static constexpr std::int64_t kGap_us = 100'000;
+
   /// Whether a telegram that starts like this can be one: its command and data length.
   using Plausible = bool (*)(std::uint8_t command, std::size_t data_bytes);
 
@@ -53,14 +65,15 @@ class Lms200Parser {
   explicit Lms200Parser(Plausible plausible);
 
   /// Takes bytes that arrived at a time. A telegram that is not complete a while after its last
-  /// byte (kGap_us) is given up.
+  /// byte (kGap_us) is given up; no bytes at all only tell the time.
   void feed(std::int64_t utime_us, std::span<const std::uint8_t> bytes);
 
-  /// The next event; nothing until more bytes come. 06 and 15 are events only where no telegram is
-  /// under way.
+  /// The next event; nothing until more bytes come. 06 and 15 are events only right behind another
+  /// event or after silence (kGap_us, clear): elsewhere they are data of a telegram whose beginning
+  /// was lost. So a damaged line can cost an answer's 06: the reply behind it says the same.
   std::optional<Lms200Event> next();
 
-  /// Forgets what is under way (after a change of speed).
+  /// Forgets what is under way and what was not taken (after a change of speed).
   void clear();
 
   struct Counts {
@@ -72,9 +85,27 @@ class Lms200Parser {
   const Counts& counts() const { return counts_; }
 
  private:
-  // Left to the implementation.
+  // Bytes from `first` of the stream on came at a time.
+  struct Piece {
+    std::int64_t first, utime_us;
+  };
+  enum class Candidate { kWhole, kIncomplete, kNone };
+
+  void parse();
+  Candidate candidate();
+  void give_up();
+  void skip_byte();
+  void take(Lms200Event::Kind kind, std::size_t bytes);
+  void forget_old_pieces();
+
   Plausible plausible_;
-  std::deque<std::pair<std::int64_t, std::uint8_t>> bytes_;
+  std::vector<std::uint8_t> bytes_;
+  std::size_t head_ = 0;            // of bytes_: all before it is done with
+  std::int64_t done_bytes_ = 0;     // of the stream, before bytes_
+  bool behind_event_ = true;        // no byte was skipped since the last event or silence
+  std::deque<Piece> pieces_;        // those that bytes_ came in
+  std::int64_t last_utime_us_ = 0;  // of the last byte
+  std::deque<Lms200Event> events_;
   Counts counts_;
 };
 

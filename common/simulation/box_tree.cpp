@@ -62,6 +62,12 @@ double Box::surface_distance_m(const Eigen::Vector3d& point) const {
   return deepest > 0.0 ? beyond.cwiseMax(0.0).norm() : -deepest;
 }
 
+std::optional<double> Box::range_m(const Eigen::Vector3d& origin,
+                                   const Eigen::Vector3d& direction) const {
+  const double range = entry(*this, origin, direction);
+  return range < kInfinity ? std::optional(range) : std::nullopt;
+}
+
 BoxTree::BoxTree(std::vector<Box> boxes) : boxes_(std::move(boxes)) {
   if (!boxes_.empty()) build(0, boxes_.size());
 }

@@ -23,6 +23,10 @@ struct Box {
 
   /// Distance of a point from the box's surface, inside or outside.
   double surface_distance_m(const Eigen::Vector3d& point) const;
+
+  /// Distance along a unit vector to the box: 0 from inside it; none when the ray misses.
+  std::optional<double> range_m(const Eigen::Vector3d& origin,
+                                const Eigen::Vector3d& direction) const;
 };
 
 /// Boxes in a binary tree of bounds, for ray casting.

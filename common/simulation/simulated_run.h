@@ -5,78 +5,75 @@
 #include <variant>
 
 #include "geometry/cloud.h"
-#include "simulation/building.h"
-#include "simulation/mirror_scanner.h"
-#include "simulation/robot.h"
-#include "simulation/tour.h"
+#include "scanner/laser_line.h"
+#include "simulation/simulation_config.h"
 #include "simulation/trajectory.h"
+#include "simulation/world.h"
 
 namespace voxlist {
-
-/// A whole simulated run. Equal configs give equal bits.
-struct SimulationConfig {
-  int seed = 1;
-  double duration_s = 0.0;
-  bool perfect_deskew = false;
-  BuildingConfig building;
-  TourConfig tour;
-  DriveConfig drive;
-  OdometryConfig odometry;
-  MirrorScannerConfig scanner;
-
-  /// What a settings file may choose; the rest is for tests.
-  template <class Visitor>
-  void visit(Visitor& v) {
-    v("seed", seed, "of the errors of wheels and laser", 0, 1'000'000'000);
-    v("duration_s", duration_s, "0: until the tour is back at its start", 0.0, 86'400.0);
-    v("perfect_deskew", perfect_deskew,
-      "sweeps are put together by the true motion, not by what the wheels measured");
-    v("building_seed", building.seed, "of the building", 0, 1'000'000'000);
-    v("rooms", building.rooms, "left and right of the corridor", 0, 100);
-    v("length_m", building.length_m, "of the building, along the corridor", 5.0, 500.0);
-    v("depth_m", building.depth_m, "of the building, across the corridor", 5.0, 100.0);
-    v("range_max_m", scanner.range_max_m, "of the laser", 1.0, 100.0);
-    v("range_sd_m", scanner.range_sd_m, "noise of the laser", 0.0, 1.0);
-  }
-};
 
 /// What the wheels measured: T_odom_base.
 struct SimulatedOdometry {
   StampedPose2 measured;
 };
 
-/// Where the robot truly is: T_map_base, the identity at the start.
+/// Where the robot truly is: T_map_base. A tour starts at the identity.
 struct SimulatedTruth {
   StampedPose2 pose;
 };
 
-/// Odometry, truth, or one sweep in base. Times are from the run's start.
-using SimulatedEvent = std::variant<SimulatedOdometry, SimulatedTruth, Cloud>;
+/// The clock moves the mirror's motor on by a step.
+struct SimulatedClockEdge {
+  std::int64_t utime_us;
+};
 
-/// A robot that drives through a building and back to its start, as events in the order of their
-/// times: odometry at its rate, and at the end of each sweep the truth and the cloud, after the
-/// odometry of the same time. Past the tour's end the robot stands still.
+/// Times are from the run's start. A line's is its stamp, a cloud's the sweep's end.
+using SimulatedEvent =
+    std::variant<SimulatedOdometry, SimulatedTruth, SimulatedClockEdge, LaserLine, Cloud>;
+
+/// A robot that drives through a building and back to its start, or stands in a room, as events in
+/// the order of their times. With clouds: odometry at its rate, and at the end of each sweep the
+/// truth and the cloud. Without: odometry and truth at odometry's rate, with lines also the clock's
+/// edges and the lines. Of the same time odometry comes first, then the truth. Past the tour's end
+/// the robot stands still.
 class SimulatedRun {
  public:
-  /// Throws as make_building and plan_tour do.
+  /// Throws as make_building, plan_tour and StepperMotor do, and std::invalid_argument for a room
+  /// that is not there.
   explicit SimulatedRun(const SimulationConfig& config);
+  SimulatedRun(const SimulatedRun&) = delete;
+  SimulatedRun& operator=(const SimulatedRun&) = delete;
 
   /// The next event; none after the last.
   std::optional<SimulatedEvent> next();
 
-  const Building& building() const { return building_; }
+  const Building& building() const { return world_.building(); }
+  const World& world() const { return world_; }
   const Trajectory& truth() const { return truth_; }
   const Trajectory& odometry() const { return odometry_; }
+  const MirrorScanner& scanner() const { return scanner_; }
   double duration_s() const { return duration_s_; }
 
  private:
+  SimulatedRun(const SimulationConfig& config, const Building& building);
+
+  SimulatedOdometry next_odometry();
+  SimulatedTruth next_truth();
+  SimulatedClockEdge next_edge();
+  LaserLine next_line();
+  Cloud next_cloud();
+  double odometry_s() const;
+  double truth_s() const;
+  double edge_s() const;
+  double line_s() const;
+  double cloud_s() const;
+
   const SimulationConfig config_;
-  const Building building_;
   const Trajectory truth_, odometry_;
   const double duration_s_;
-  std::int64_t samples_ = 0;  // of odometry, told so far
-  std::int64_t sweeps_ = 0;
-  bool truth_told_ = false;  // of the sweep that is next
+  const World world_;
+  const MirrorScanner scanner_;
+  std::int64_t odometries_ = 0, truths_ = 0, edges_ = 0, lines_ = 0, clouds_ = 0;  // told so far
 };
 
 }  // namespace voxlist

@@ -1,20 +1,54 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <string>
+
+#include "bus/channels.h"
+#include "scanner/cloud_assembler.h"
 
 namespace voxlist {
 
 class Bus;
 class Health;
 
-struct CloudAssemblerConfig {
-  template <class Visitor>
-  void visit(Visitor&) {}
-};
-
+/// LASER, MIRROR and ODOMETRY in; CLOUD and CLOUD_SLICE out, from within the handler of the message
+/// that completes them.
 class CloudAssemblerService {
  public:
-  CloudAssemblerService(Bus&, Health&, const CloudAssemblerConfig&) {}
+  /// Throws std::invalid_argument as CloudAssembler does.
+  CloudAssemblerService(Bus& bus, Health& health, const CloudAssemblerConfig& config);
+
+  /// Tells HEALTH what is missing, and how long the last cloud took.
+  void tick(std::int64_t now_us);
+
+ private:
+  // When something last came, to the tick.
+  struct Input {
+    bool heard = false;
+    std::int64_t last_us = 0;
+    void note(std::int64_t now_us);
+    bool is_silent(std::int64_t now_us) const;
+  };
+
+  void take_laser(const planar_lidar_t& message);
+  void take_mirror(const mirror_state_t& message);
+  void take_odometry(const pose_t& message);
+  void publish(const Assembly& assembly);
+  void tell_state(std::int64_t now_us);
+
+  Bus& bus_;
+  Health& health_;
+  const CloudAssemblerConfig config_;
+  CloudAssembler assembler_;
+  Input laser_, mirror_, odometry_;
+  Input used_;             // lines that got as far as a cloud
+  std::string last_drop_;  // why one did not
+  MirrorState mirror_state_;
+  double line_share_ = 1.0;  // of the last sweep
+  std::int32_t clouds_ = 0, slices_ = 0;
+  bool started_ = false;
+  std::optional<std::int64_t> arrival_us_;  // of the message that completed the last cloud
 };
 
 }  // namespace voxlist

@@ -19,7 +19,7 @@ struct Overloaded : Handlers... {
 std::int64_t utime_us(const SimulatedEvent& event) {
   return std::visit(Overloaded{[](const SimulatedOdometry& e) { return e.measured.utime_us; },
                                [](const SimulatedTruth& e) { return e.pose.utime_us; },
-                               [](const Cloud& e) { return e.utime_us; }},
+                               [](const auto& e) { return e.utime_us; }},
                     event);
 }
 
@@ -52,10 +52,10 @@ void SimulatorService::publish(const SimulatedEvent& event) {
     message.utime += *start_us_;
     bus_.publish(kCloud, message);
   };
-  std::visit(
-      Overloaded{[&](const SimulatedOdometry& e) { publish_pose(kOdometry, e.measured); },
-                 [&](const SimulatedTruth& e) { publish_pose(kTruth, e.pose); }, publish_cloud},
-      event);
+  std::visit(Overloaded{[&](const SimulatedOdometry& e) { publish_pose(kOdometry, e.measured); },
+                        [&](const SimulatedTruth& e) { publish_pose(kTruth, e.pose); },
+                        publish_cloud, [](const auto&) {}},
+             event);
 }
 
 }  // namespace voxlist

@@ -47,6 +47,8 @@ class ScanSetWriter {
   void operator()(const Cloud& cloud) {
     write_ply(folder_ / ("scan_" + std::to_string(scans_++) + ".ply"), cloud);
   }
+  void operator()(const LaserLine&) {}  // none: the run yields clouds
+  void operator()(const SimulatedClockEdge&) {}
 
  private:
   const fs::path folder_;

@@ -123,7 +123,7 @@ TEST(Obstacles, OfASimulatedRoomAreWhereItsWallsAndFurnitureAre) {
   int seen = 0;
   for (double t = 10.0; t < run.duration_s(); t += 10.0) {
     SCOPED_TRACE(t);
-    const Cloud cloud = scan_sweep(run.building(), run.truth(), run.truth(), t, config.scanner, 1);
+    const Cloud cloud = scan_sweep(run.scanner(), run.truth(), t, config.sweep, 1);
     const ObstacleScan scan = nearest_obstacles(cloud, obstacle_config);
     const Pose2 T_map_base = run.truth().at(t);
     for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
@@ -132,7 +132,7 @@ TEST(Obstacles, OfASimulatedRoomAreWhereItsWallsAndFurnitureAre) {
       const double bearing = static_cast<double>(i) * scan.step_rad, range = scan.ranges_m[i];
       const Eigen::Vector3d hit =
           T_map_base * Eigen::Vector3d(range * std::cos(bearing), range * std::sin(bearing), 0.0);
-      const double tolerance = 6.0 * config.scanner.range_sd_m + range * scan.step_rad / 2.0;
+      const double tolerance = 6.0 * config.sweep.range_sd_m + range * scan.step_rad / 2.0;
       ASSERT_LE(run.building().clearance_m({hit.x(), hit.y()}, 0.05, 1.05), tolerance) << i;
     }
   }

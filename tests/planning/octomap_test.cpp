@@ -122,7 +122,7 @@ TEST(Octomap, LeavesOutRaysThatLeaveTheTree) {
 TEST(Octomap, EqualsOctomapsOwnInsertionWhenAllRaysStartInOnePlace) {
   SimulationConfig simulation;
   const SimulatedRun run(simulation);
-  Cloud cloud = scan_sweep(run.building(), run.truth(), run.truth(), 10.0, simulation.scanner, 1);
+  Cloud cloud = scan_sweep(run.scanner(), run.truth(), 10.0, simulation.sweep, 1);
   cloud.origins.assign(cloud.points.size(), {0.0F, 0.0F, 0.6F});
 
   octomap::OcTree expected(0.1);

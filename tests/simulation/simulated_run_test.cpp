@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <stdexcept>
 #include <variant>
 #include <vector>
 
@@ -87,6 +88,94 @@ TEST(SimulatedRun, LastsUntilTheTourIsOverUnlessToldOtherwise) {
   const SimulatedRun run(SimulationConfig{});
   EXPECT_EQ(run.duration_s(), run.truth().duration_s());
   EXPECT_GT(run.duration_s(), 60.0);
+}
+
+// The scanner's own events, with lines.
+struct ScannerRecording {
+  std::vector<std::int64_t> edges, lines, odometry, truth, all;
+  std::vector<std::vector<float>> ranges;
+};
+
+ScannerRecording record_scanner(SimulationConfig config) {
+  config.scans = SimulationConfig::Scans::kLines;
+  ScannerRecording recording;
+  SimulatedRun run(config);
+  while (const auto event = run.next()) {
+    std::vector<std::int64_t>* times = nullptr;
+    std::int64_t utime_us = 0;
+    if (const auto* edge = std::get_if<SimulatedClockEdge>(&*event)) {
+      times = &recording.edges;
+      utime_us = edge->utime_us;
+    } else if (const auto* line = std::get_if<LaserLine>(&*event)) {
+      times = &recording.lines;
+      utime_us = line->utime_us;
+      recording.ranges.push_back(line->ranges_m);
+    } else if (const auto* odometry = std::get_if<SimulatedOdometry>(&*event)) {
+      times = &recording.odometry;
+      utime_us = odometry->measured.utime_us;
+    } else if (const auto* truth = std::get_if<SimulatedTruth>(&*event)) {
+      times = &recording.truth;
+      utime_us = truth->pose.utime_us;
+    }
+    times->push_back(utime_us);
+    recording.all.push_back(utime_us);
+  }
+  return recording;
+}
+
+TEST(SimulatedRun, YieldsLinesAndTheClocksEdgesInTheOrderOfTime) {
+  const ScannerRecording run = record_scanner(five_seconds());
+  EXPECT_EQ(run.lines.size(), 376u);  // 75.03 a second
+  EXPECT_EQ(run.edges.size(), 1001u);
+  EXPECT_EQ(run.edges[77], 385'000);
+  EXPECT_EQ(run.odometry.size(), 251u);
+  EXPECT_EQ(run.truth, run.odometry);
+  EXPECT_TRUE(std::is_sorted(run.all.begin(), run.all.end()));
+}
+
+TEST(SimulatedRun, MeasuresTheSameLinesAgain) {
+  SimulationConfig config = five_seconds();
+  config.people.count = 2;
+  config.building.stairs = 1;
+  EXPECT_EQ(record_scanner(config).ranges, record_scanner(config).ranges);
+}
+
+TEST(SimulatedRun, StampsLinesLateByTheLatencyAndKeepsItsEdges) {
+  SimulationConfig config = five_seconds();
+  config.latency_ms = 1.0;
+  const ScannerRecording late = record_scanner(config);
+  const ScannerRecording punctual = record_scanner(five_seconds());
+  EXPECT_EQ(late.lines[10], punctual.lines[10] + 1000);
+  EXPECT_EQ(late.ranges[10], punctual.ranges[10]);
+  EXPECT_EQ(late.edges, punctual.edges);
+  EXPECT_TRUE(std::is_sorted(late.all.begin(), late.all.end()));
+}
+
+TEST(SimulatedRun, LosesTheClocksEdgesWhileItsLineIsLost) {
+  SimulationConfig config = five_seconds();
+  config.motor_fault = {.from_s = 1.0, .to_s = 2.0, .clock_lost = true};
+  const ScannerRecording run = record_scanner(config);
+  EXPECT_EQ(run.edges.size(), 801u);
+  EXPECT_EQ(run.edges[200], 2'000'000);
+}
+
+TEST(SimulatedRun, StandsInTheMiddleOfTheRoomThatItIsTold) {
+  SimulationConfig config;
+  config.stand_in_room = 2;
+  const SimulatedRun run(config);
+  const Eigen::Vector2d centre = run.building().rooms[2].centre();
+  EXPECT_EQ(run.truth().at(0.0), (Pose2{centre.x(), centre.y(), 0.0}));
+  EXPECT_EQ(run.truth().at(50.0), run.truth().at(0.0));
+  EXPECT_EQ(run.duration_s(), 60.0);
+  config.stand_in_room = 6;
+  EXPECT_THROW(SimulatedRun{config}, std::invalid_argument);
+}
+
+TEST(SimulatedRun, HasPerfectWheelsWhenTheirErrorsAreNone) {
+  SimulationConfig config;
+  config.odometry_errors = 0.0;
+  const SimulatedRun run(config);
+  EXPECT_LT(distance_m(run.odometry().at(60.0), run.truth().at(60.0)), 1e-6);
 }
 
 }  // namespace

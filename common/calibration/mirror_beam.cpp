@@ -1,0 +1,76 @@
+#include "calibration/mirror_beam.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scanner/beam_geometry.h"
+#include "scanner/mirror_motion.h"
+
+namespace voxlist {
+namespace {
+
+// The states of a log, taken as time goes on.
+class MirrorLog {
+ public:
+  MirrorLog(const std::vector<MirrorState>& states, const CloudAssemblerConfig& scanner)
+      : states_(states),
+        reach_us_(std::llround(scanner.mirror_extrapolation_ms * 1e3)),
+        motion_(scanner.staircase, reach_us_) {}
+
+  // Times must not go back.
+  MirrorAt at(std::int64_t utime_us) {
+    for (; next_ < states_.size() && states_[next_].utime_us <= utime_us + reach_us_; ++next_) {
+      MirrorState state = states_[next_];
+      state.angle_known = state.angle_known && state.state == MirrorState::State::kLocked;
+      motion_.add(state);
+    }
+    return motion_.at(utime_us);
+  }
+
+ private:
+  const std::vector<MirrorState>& states_;
+  std::size_t next_ = 0;
+  const std::int64_t reach_us_;
+  MirrorMotion motion_;
+};
+
+// An even choice that follows neither the lines' nor the sweeps' rhythm: Fibonacci hashing.
+void thin(std::vector<MirrorBeam>& beams, std::size_t most) {
+  if (beams.size() <= most) return;
+  const double share = static_cast<double>(most) / static_cast<double>(beams.size());
+  std::uint64_t index = 0;
+  std::erase_if(beams, [&](const MirrorBeam&) {
+    const std::uint64_t hash = ++index * 0x9E3779B97F4A7C15ULL;
+    return static_cast<double>(hash >> 11) * 0x1p-53 >= share;
+  });
+}
+
+}  // namespace
+
+BeamSet gather_beams(const std::vector<LaserLine>& lines, const std::vector<MirrorState>& mirror,
+                     const CloudAssemblerConfig& scanner, std::size_t max_beams) {
+  const double latency_s = parameters_of(scanner.geometry)[kLatency];
+  const BeamGeometry geometry(scanner);
+  MirrorLog log(mirror, scanner);
+  BeamSet set;
+  for (const LaserLine& line : lines) {
+    bool known = true;
+    for (std::size_t i = 0; i < line.ranges_m.size(); ++i) {
+      const double delay_us = beam_delay_us(line, i) - latency_s * 1e6;
+      const MirrorAt at = log.at(line.utime_us + std::llround(delay_us));
+      known = known && at.known == MirrorAt::Known::kYes;
+      if (at.known != MirrorAt::Known::kYes) continue;
+      if (scanner.mirror_sides == 1 && geometry.side(at.psi_rad) == 1) continue;
+      BeamHit hit;
+      if (geometry.follow(at.psi_rad, line.angle_rad(i), line.ranges_m[i], hit) != BeamFate::kPoint)
+        continue;
+      set.beams.push_back({line.angle_rad(i), line.ranges_m[i],
+                           at.psi_rad + at.rate_radps * latency_s, at.rate_radps});
+    }
+    ++(known ? set.lines : set.lines_without_mirror);
+  }
+  thin(set.beams, max_beams);
+  return set;
+}
+
+}  // namespace voxlist

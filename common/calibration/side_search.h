@@ -1,0 +1,14 @@
+#pragma once
+
+#include <span>
+
+#include "calibration/mirror_beam.h"
+
+namespace voxlist {
+
+/// How much greater phase 1 should be against phase 0 (radians), roughly, so that what the mirror's
+/// two sides see is one room: the fewest occupied voxels. Looks up to 5 deg to both sides. 0 when
+/// only one side was used.
+double side_difference(std::span<const MirrorBeam> beams, const ParameterVector& parameters);
+
+}  // namespace voxlist

@@ -1,0 +1,102 @@
+#include "config/edit.h"
+
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <stdexcept>
+
+namespace voxlist {
+namespace {
+
+// Lines with their ends.
+std::vector<std::string> split(const std::string& text) {
+  std::vector<std::string> lines;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size() - 1) + 1;
+    lines.push_back(text.substr(begin, end - begin));
+    begin = end;
+  }
+  return lines;
+}
+
+toml::table parse(const std::string& text) {
+  try {
+    return toml::parse(text);
+  } catch (const toml::parse_error& error) {
+    throw std::runtime_error("line " + std::to_string(error.source().begin.line) + ": " +
+                             std::string(error.description()));
+  }
+}
+
+// The text by lines, counted from 1 as TOML's places are.
+class Editor {
+ public:
+  explicit Editor(const std::string& text)
+      : lines_(split(text)), end_of_line_(text.find("\r\n") == text.npos ? "\n" : "\r\n") {}
+
+  bool starts_with_bracket(toml::source_index line) const {
+    const std::string& text = lines_[line - 1];
+    const std::size_t first = text.find_first_not_of(" \t");
+    return first != text.npos && text[first] == '[';
+  }
+
+  void replace(const toml::source_position& at, const std::string& value) {
+    std::string& line = lines_[at.line - 1];
+    const std::size_t begin = at.column - 1;
+    line.replace(begin, std::min(line.find_first_of(" \t#\r\n", begin), line.size()) - begin,
+                 value);
+  }
+
+  void insert_behind(toml::source_index line, const std::vector<std::string>& added) {
+    if (line > 0 && !lines_[line - 1].ends_with('\n')) lines_[line - 1] += end_of_line_;
+    auto at = lines_.begin() + static_cast<std::ptrdiff_t>(line);
+    for (const std::string& text : added) at = lines_.insert(at, text + end_of_line_) + 1;
+  }
+
+  toml::source_index lines() const { return static_cast<toml::source_index>(lines_.size()); }
+
+  std::string text() const {
+    std::string all;
+    for (const std::string& line : lines_) all += line;
+    return all;
+  }
+
+ private:
+  std::vector<std::string> lines_;
+  const char* const end_of_line_;
+};
+
+toml::source_index last_line(const toml::table& table) {
+  toml::source_index last = table.source().begin.line;
+  for (const auto& [key, node] : table) last = std::max(last, node.source().end.line);
+  return last;
+}
+
+}  // namespace
+
+std::string with_numbers(const std::string& text, const std::string& table,
+                         const std::vector<std::pair<std::string, std::string>>& values) {
+  const toml::table document = parse(text);
+  const toml::table* const found = document[table].as_table();
+  Editor editor(text);
+  if (document.contains(table) &&
+      (found == nullptr || !editor.starts_with_bracket(found->source().begin.line)))
+    throw std::runtime_error("write the keys of " + table + " under a line [" + table + "]");
+
+  std::vector<std::string> added;
+  if (found == nullptr && !text.empty()) added.emplace_back();
+  if (found == nullptr) added.push_back("[" + table + "]");
+  for (const auto& [key, value] : values) {
+    const toml::node* const old = found == nullptr ? nullptr : found->get(key);
+    if (old != nullptr) {
+      editor.replace(old->source().begin, value);
+    } else {
+      added.push_back(key + " = " + value);
+    }
+  }
+  editor.insert_behind(found == nullptr ? editor.lines() : last_line(*found), added);
+  return editor.text();
+}
+
+}  // namespace voxlist

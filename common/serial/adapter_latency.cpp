@@ -1,0 +1,34 @@
+#include "serial/adapter_latency.h"
+
+#include <fstream>
+#include <optional>
+
+namespace voxlist {
+namespace {
+
+constexpr int kLatency_ms = 1;
+
+std::optional<int> number_in(const std::filesystem::path& file) {
+  int number = 0;
+  if (std::ifstream(file) >> number) return number;
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::string quicken_adapter(const std::filesystem::path& port, const std::filesystem::path& sysfs) {
+  std::error_code error;
+  const std::filesystem::path device = std::filesystem::canonical(port, error);
+  if (error) return "";
+  const std::filesystem::path timer = sysfs / device.filename() / "latency_timer";
+  const auto before_ms = number_in(timer);
+  if (!before_ms || *before_ms <= kLatency_ms) return "";
+  std::ofstream(timer) << kLatency_ms;
+  const auto now_ms = number_in(timer);
+  if (now_ms && *now_ms <= kLatency_ms) return "";
+  return port.string() + ": its USB adapter holds bytes back for " + std::to_string(*before_ms) +
+         " ms: write " + std::to_string(kLatency_ms) + " to " + timer.string() +
+         " as root (a udev rule keeps it)";
+}
+
+}  // namespace voxlist

@@ -1,0 +1,114 @@
+#include "services/cloud_assembler/cloud_assembler_service.h"
+
+#include <cmath>
+#include <voxlist/mirror_state_t.hpp>
+#include <voxlist/planar_lidar_t.hpp>
+#include <voxlist/pointcloud_t.hpp>
+#include <voxlist/pose_t.hpp>
+
+#include "bus/bus.h"
+#include "bus/convert.h"
+#include "bus/health.h"
+
+namespace voxlist {
+namespace {
+
+constexpr std::int64_t kSilence_us = 1'000'000;
+
+// A line or two lost in a sweep is everyday life on a serial line.
+constexpr double kGoodLineShare = 0.95;
+
+}  // namespace
+
+CloudAssemblerService::CloudAssemblerService(Bus& bus, Health& health,
+                                             const CloudAssemblerConfig& config)
+    : bus_(bus), health_(health), config_(config), assembler_(config) {
+  bus_.subscribe(kLaser, [this](const planar_lidar_t& m) { take_laser(m); });
+  bus_.subscribe(kMirror, [this](const mirror_state_t& m) { take_mirror(m); });
+  bus_.subscribe(kOdometry, [this](const pose_t& m) { take_odometry(m); });
+}
+
+void CloudAssemblerService::take_laser(const planar_lidar_t& message) {
+  laser_.heard = true;
+  auto line = from_message(message);
+  if (!line) return health_.count("LASER/not_a_line");
+  publish(assembler_.add_line(std::move(*line)));
+}
+
+void CloudAssemblerService::take_mirror(const mirror_state_t& message) {
+  mirror_.heard = true;
+  auto state = from_message(message);
+  if (!state) return health_.count("MIRROR/not_a_state");
+  mirror_state_ = std::move(*state);
+  publish(assembler_.add_mirror(mirror_state_));
+}
+
+void CloudAssemblerService::take_odometry(const pose_t& message) {
+  odometry_.heard = true;
+  const auto pose = from_message(message);
+  if (!pose) return health_.count("ODOMETRY/not_a_pose");
+  publish(assembler_.add_odometry({pose->utime_us, to_pose2(pose->pose)}));
+}
+
+void CloudAssemblerService::publish(const Assembly& assembly) {
+  for (const Cloud& slice : assembly.slices)
+    bus_.publish(kCloudSlice, to_message(slice, "base", slices_++));
+  for (const Cloud& cloud : assembly.clouds) {
+    bus_.publish(kCloud, to_message(cloud, "base", clouds_++));
+    arrival_us_ = bus_.arrival_utime_us();
+  }
+  line_share_ = assembly.line_share.value_or(line_share_);
+  for (const auto& [what, times] : assembly.counts) {
+    health_.count(what, times);
+    if (what == "LASER/assembled" || what == "LASER/dead_side") used_.heard = true;
+    if (what.starts_with("LASER/") && !used_.heard) last_drop_ = what;
+  }
+}
+
+void CloudAssemblerService::tick(std::int64_t now_us) {
+  for (Input* input : {&laser_, &mirror_, &odometry_, &used_}) {
+    if (!started_) input->last_us = now_us;
+    input->note(now_us);
+  }
+  started_ = true;
+  if (arrival_us_) health_.add_latency_us(now_us - *arrival_us_);
+  arrival_us_.reset();
+  tell_state(now_us);
+}
+
+void CloudAssemblerService::tell_state(std::int64_t now_us) {
+  using State = Health::State;
+  if (laser_.is_silent(now_us))
+    return health_.set_state(State::kError, "no LASER: is laser_driver running?");
+  if (mirror_.is_silent(now_us))
+    return health_.set_state(State::kError, "no MIRROR: is mirror_monitor running?");
+  if (!mirror_state_.angle_known)
+    return health_.set_state(State::kError, "mirror's angle not known: " + mirror_state_.reason);
+  if (config_.use_odometry && odometry_.is_silent(now_us))
+    return health_.set_state(State::kError,
+                             "no ODOMETRY, so no clouds: is the robot base running? Without one "
+                             "set use_odometry = false");
+  if (used_.is_silent(now_us))
+    return health_.set_state(State::kError,
+                             "no line can be used (" + last_drop_ +
+                                 "): do the times of LASER, MIRROR and ODOMETRY agree?");
+  if (!mirror_state_.reason.empty())
+    return health_.set_state(State::kWarning, "mirror: " + mirror_state_.reason);
+  if (line_share_ < kGoodLineShare)
+    return health_.set_state(State::kWarning,
+                             "the last sweep had only " +
+                                 std::to_string(std::lround(100.0 * line_share_)) +
+                                 " % of its lines: see LASER/missing and the other counters");
+  health_.set_state(State::kOk);
+}
+
+void CloudAssemblerService::Input::note(std::int64_t now_us) {
+  if (heard) last_us = now_us;
+  heard = false;
+}
+
+bool CloudAssemblerService::Input::is_silent(std::int64_t now_us) const {
+  return now_us - last_us > kSilence_us;
+}
+
+}  // namespace voxlist

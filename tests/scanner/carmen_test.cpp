@@ -1,0 +1,128 @@
+// Real ranges through the device double and the session: what went in comes out.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iostream>
+#include <limits>
+#include <numbers>
+
+#include "carmen_log.h"
+#include "lms200_bench.h"
+#include "scanner/lms200.h"
+
+namespace voxlist {
+namespace {
+
+constexpr std::int64_t kStart_us = 1'700'000'000'000'000;
+
+// Nothing came back: the log's word for it, as the device's is in centimetres.
+constexpr float kNoRange_m = 81.9F;
+
+// Plays the log's scans: those of half a degree as the two partial scans that they are.
+class Player {
+ public:
+  explicit Player(const std::vector<std::vector<float>>& scans) : scans_(scans) {}
+
+  LaserLine measure(std::int64_t utime_us, double first_angle_rad) {
+    const bool odd = first_angle_rad > 0.1 * std::numbers::pi / 180.0;
+    if (!odd && begun_) ++scan_;
+    begun_ = true;
+    LaserLine line;
+    line.utime_us = utime_us;
+    line.first_angle_rad = first_angle_rad;
+    const std::vector<float>& scan = scans_[scan_ % scans_.size()];
+    for (std::size_t beam = odd ? 1 : 0; beam < scan.size(); beam += 2)
+      line.ranges_m.push_back(scan[beam] < kNoRange_m ? scan[beam] : NAN);
+    line.ranges_m.resize(181, NAN);
+    played_.push_back(line);
+    return line;
+  }
+
+  bool is_over() const { return scan_ + 1 >= scans_.size(); }
+
+  // What went in, in order.
+  std::vector<LaserLine> take() { return std::exchange(played_, {}); }
+
+ private:
+  const std::vector<std::vector<float>>& scans_;
+  std::size_t scan_ = 0;
+  bool begun_ = false;
+  std::vector<LaserLine> played_;
+};
+
+long millimetres(float range_m) { return std::lround(range_m * 1e3F); }
+
+struct Comparison {
+  int lines = 0, ranges = 0, wrong = 0, beyond = 0, none = 0;
+
+  // `limit_m`: the device has no greater ranges.
+  void add(const LaserLine& out, const LaserLine& in, double limit_m) {
+    ++lines;
+    for (std::size_t i = 0; i < out.ranges_m.size(); ++i) {
+      const float range_m = in.ranges_m[i];
+      ++ranges;
+      if (std::isnan(range_m)) {
+        ++none;
+        wrong += !std::isnan(out.ranges_m[i]);
+      } else if (range_m >= limit_m) {
+        ++beyond;
+        wrong += !(out.ranges_m[i] == std::numeric_limits<float>::infinity());
+      } else {
+        wrong += millimetres(out.ranges_m[i]) != millimetres(range_m);
+      }
+    }
+  }
+};
+
+class Carmen : public testing::Test {
+ protected:
+  void SetUp() override {
+    scans_ = carmen_scans();
+    if (scans_.empty()) GTEST_SKIP() << "no carmen/fr079.clf.bz2 in VOXLIST_DATA, or no bzcat";
+  }
+
+  Comparison compare(const Lms200Config& config, double limit_m) {
+    Player player(scans_);
+    Lms200Device device({.power_on_s = 0.0}, kStart_us, [&](auto utime_us, double angle) {
+      return player.measure(utime_us, angle);
+    });
+    VirtualPort port(device, kStart_us);
+    Lms200 driver(port, config);
+    driver.begin();
+    Comparison result;
+    std::vector<LaserLine> waiting;
+    std::size_t next = 0;
+    while (!player.is_over()) {
+      const auto line = driver.next(1'000'000);
+      for (LaserLine& played : player.take()) waiting.push_back(std::move(played));
+      if (!line) break;
+      result.add(*line, waiting[next++], limit_m);
+    }
+    EXPECT_EQ(driver.report().lost_scans, 0);
+    std::cout << result.lines << " lines, " << result.ranges << " ranges, " << result.none
+              << " without, " << result.beyond << " beyond " << limit_m << " m, " << result.wrong
+              << " wrong\n";
+    return result;
+  }
+
+  std::vector<std::vector<float>> scans_;
+};
+
+TEST_F(Carmen, RangesInCentimetresComeOutAsTheyWentIn) {
+  Lms200Config config;
+  config.range_m = 80;
+  config.resolution_deg = 0.5;
+  const Comparison result = compare(config, 81.83);
+  EXPECT_GT(result.lines, 9'000);
+  EXPECT_EQ(result.wrong, 0);
+}
+
+TEST_F(Carmen, RangesInMillimetresComeOutAsTheyWentInUpTo8Metres) {
+  const Comparison result = compare(Lms200Config{}, 8.183);
+  EXPECT_GT(result.lines, 4'000);
+  EXPECT_GT(result.beyond, 10'000);
+  EXPECT_EQ(result.wrong, 0);
+}
+
+}  // namespace
+}  // namespace voxlist
