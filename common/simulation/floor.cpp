@@ -20,7 +20,7 @@ Building make_floor(const BuildingConfig& wing, int wings) {
     for (const Room& room : one.rooms)
       rooms.push_back({room.low + shift, room.high + shift, room.door + shift});
   }
-  return {BoxTree(std::move(boxes)), std::move(rooms)};
+  return {BoxTree(std::move(boxes)), std::move(rooms), {}};
 }
 
 }  // namespace voxlist

@@ -9,6 +9,7 @@
 #include "bench/world.h"
 #include "matching/global_search.h"
 #include "matching/refine.h"
+#include "io/scan_folder.h"
 
 namespace voxlist {
 namespace {
@@ -41,23 +42,58 @@ std::vector<Eigen::Vector3f> chosen(const TolerantMap& map, const Cloud& scan, s
   return out;
 }
 
-void run(const WorldConfig& config, int queries, std::size_t most, double ratio) {
+// Share of rays that pass through an occupied voxel of 0.08 m, well before they end; and share of points on occupied.
+double violations(const VoxelMap& map8, const Cloud& scan, const Pose2& pose) {
+  int through = 0, rays = 0;
+  for (std::size_t i = 0; i < scan.points.size(); i += 8) {
+    const Eigen::Vector3d a = pose * scan.origin(i).cast<double>(), b = pose * scan.points[i].cast<double>();
+    const double length = (b - a).norm();
+    const Eigen::Vector3d d = (b - a) / length;
+    ++rays;
+    for (double t = 0.3; t < length - 0.25; t += 0.06) {
+      if (map8.contains(voxel_at(Eigen::Vector3d(a + t * d), 0.08))) { ++through; break; }
+    }
+  }
+  return double(through) / rays;
+}
+
+struct Stats { double hit, in_free, unknown, through; };
+Stats stats(const TestFloor& world, const VoxelMap& map8, const TolerantMap& map, const std::vector<Eigen::Vector3f>& points, const Cloud& scan, const Pose2& pose) {
+  Stats s{};
+  for (const auto& p : points) {
+    const Eigen::Vector3d q = pose * p.cast<double>();
+    const bool hit = map.occupied(static_cast<int>(std::floor(q.x() / map.cell_m())) - map.lowest().x, static_cast<int>(std::floor(q.y() / map.cell_m())) - map.lowest().y, static_cast<int>(std::floor(q.z() / map.cell_height_m())) - map.lowest().z);
+    if (hit) s.hit += 1; else if (world.free.contains(voxel_at(q, 0.16))) s.in_free += 1; else s.unknown += 1;
+  }
+  const double n = double(points.size());
+  return {s.hit / n, s.in_free / n, s.unknown / n, violations(map8, scan, pose)};
+}
+
+void run(const WorldConfig& config, int changed, int queries, std::size_t most, double ratio) {
   const double t0 = cpu_ms();
-  const World world = make_world(config);
+  const TestFloor world = make_test_floor(config);
+  const int people = changed ? 3 : 0;
+  BuildingConfig later = config.wing;
+  later.changed = changed;
+  const Building now = make_floor(later, config.wings);
   const double t1 = cpu_ms();
   const TolerantMap map(world.map, {});
   const double t2 = cpu_ms();
   const CoarseMap coarse(map, 9.0);
   const double t3 = cpu_ms();
   const SurfelMap surfels(world.map);
+  VoxelMap map8(0.08);
+  world.map.for_each_voxel([&](const Voxel& v) { map8.insert({floor_div(v.x, 4), floor_div(v.y, 4), floor_div(v.z, 4)}); });
+  int in_list = 0, by_violation = 0, by_fit = 0, by_sum = 0;
   std::printf("%s: %zu voxels, world %.1f s, preparation %.0f + %.0f + %.0f ms, %d x %d x %d\n", world.name.c_str(),
               world.map.size(), (t1 - t0) * 1e-3, t2 - t1, t3 - t2, cpu_ms() - t3, map.size_x(), map.size_y(), map.size_z());
   Random random(4711, static_cast<std::uint64_t>(config.wing.seed));
   std::vector<double> times, errors, turns, e0, sw, lf, ce, leaves;
   int right = 0, right0 = 0, certified = 0;
   for (int q = 0; q < queries; ++q) {
-    const Pose2 truth = free_pose(world, random);
-    const Cloud scan = scan_at(world.building, truth, 1'000'000 + static_cast<std::uint64_t>(q));
+    Pose2 truth = free_pose(world, random);
+    while (now.clearance_m({truth.x_m, truth.y_m}, 0.05, 1.0) < 0.35) truth = free_pose(world, random);
+    const Cloud scan = scan_at(now, truth, people, 1'000'000 + static_cast<std::uint64_t>(q));
     const double start = cpu_ms();
     const auto points = chosen(map, scan, most);
     GlobalSearchConfig gc;
@@ -66,9 +102,32 @@ void run(const WorldConfig& config, int queries, std::size_t most, double ratio)
     const GlobalSearchResult match = global_search(map, coarse, points, gc);
     double best_fit = -1;
     Pose2 best;
+    double bv = -1e9, bf = -1e9, bs = -1e9; Pose2 pv, pf, ps; bool listed = false;
     for (const auto& m : match.modes) {
       const Refinement r = refine(surfels, points, {m.pose.x_m + 0.02, m.pose.y_m + 0.02, m.pose.yaw_rad});
       if (r.inlier_share > best_fit) best_fit = r.inlier_share, best = r.pose;
+      const double v = violations(map8, scan, r.pose), o = double(m.overlap) / double(points.size());
+      if (o - v > bv) bv = o - v, pv = r.pose;
+      if (r.inlier_share > bf) bf = r.inlier_share, pf = r.pose;
+      if (o - v + 0.5 * r.inlier_share > bs) bs = o - v + 0.5 * r.inlier_share, ps = r.pose;
+      const bool is = distance_m(r.pose, truth) < 0.05;
+      listed |= is;
+      if (std::getenv("V")) std::printf("   %s o %.3f v %.3f fit %.3f\n", is ? "TRUE" : "    ", o, v, r.inlier_share);
+    }
+    in_list += listed;
+    const auto hit = [&](const Pose2& p) { return distance_m(p, truth) < 0.05 && turn_rad(p, truth) < 0.5 / 57.3; };
+    by_violation += hit(pv); by_fit += hit(pf); by_sum += hit(ps);
+    best = pv;
+    if (std::getenv("S")) {
+      const Stats a = stats(world, map8, map, points, scan, truth);
+      Stats b{}; double bo = -1; double gap = 9;
+      for (const auto& m : match.modes) if (distance_m(m.pose, truth) > 0.3 || turn_rad(m.pose, truth) > 0.1) {
+        const Pose2 mp{m.pose.x_m + 0.02, m.pose.y_m + 0.02, m.pose.yaw_rad};
+        const Stats c = stats(world, map8, map, points, scan, mp);
+        if (c.hit > bo) bo = c.hit, b = c;
+        gap = std::min(gap, (a.hit - a.unknown - a.through) - (c.hit - c.unknown - c.through));
+      }
+      std::printf("S true %.3f free %.3f unk %.3f thr %.3f | wrong %.3f free %.3f unk %.3f thr %.3f gap %.3f\n", a.hit, a.in_free, a.unknown, a.through, b.hit, b.in_free, b.unknown, b.through, gap);
     }
     times.push_back(cpu_ms() - start);
     ce.push_back(match.ms_cells), sw.push_back(match.ms_sweep), lf.push_back(match.ms_leaves), leaves.push_back(double(match.leaves));
@@ -79,9 +138,57 @@ void run(const WorldConfig& config, int queries, std::size_t most, double ratio)
     if (error < 0.05 && turn < 0.5 / 57.3) ++right, errors.push_back(error), turns.push_back(turn);
     else std::printf("  wrong: %.2f %.2f %.2f: %zu points, off %.2f m, fit %.3f overlap %d second %d of %zu\n", truth.x_m, truth.y_m, truth.yaw_rad, scan.points.size(), error, best_fit, match.modes[0].overlap, match.modes.size() > 1 ? match.modes[1].overlap : 0, points.size());
   }
+  std::printf("  in list %d, by overlap-violations %d, by fit %d, by sum %d\n", in_list, by_violation, by_fit, by_sum);
   std::printf("  right %d (before %d) of %d, certified %d, error median %.1f mm %.3f deg, CPU ms median %.1f p95 %.1f max %.1f; cells %.1f sweep %.1f leaves %.1f (max %.1f), leaves %.0f p95 %.0f\n",
               right, right0, queries, certified, 1e3 * percentile(errors, 0.5), 57.3 * percentile(turns, 0.5),
               percentile(times, 0.5), percentile(times, 0.95), percentile(times, 1.0), percentile(ce, .5), percentile(sw, .5), percentile(lf, .5), percentile(lf, 1.), percentile(leaves, .5), percentile(leaves, .95));
+}
+
+void hall(std::size_t most, double ratio, double cell, double range) {
+  const ScanFolder scans(std::filesystem::path(std::getenv("VOXLIST_DATA")) / "hall");
+  VoxelMap vm(kFinestResolution_m);
+  for (std::size_t i = 0; i < scans.size(); i += 2) {
+    const Pose3 T = scans.truth(i).value();
+    for (const auto& p : scans.read(i).points) {
+      const Eigen::Vector3d q = T * p.cast<double>();
+      if (in_lattice(q, kFinestResolution_m)) vm.insert(voxel_at(q, kFinestResolution_m));
+    }
+  }
+  const double t1 = cpu_ms();
+  const TolerantMap map(vm, {cell});
+  const CoarseMap coarse(map, range);
+  const SurfelMap surfels(vm);
+  std::printf("hall: prep %.0f ms, %d x %d x %d\n", cpu_ms() - t1, map.size_x(), map.size_y(), map.size_z());
+  std::vector<double> times, errors, sw, lf, leaves, first, second;
+  int right = 0, right0 = 0, n = 0, certified = 0;
+  for (std::size_t i = 1; i < scans.size(); i += 2) {
+    Cloud scan = scans.read(i);
+    std::erase_if(scan.points, [&](const auto& p) { return p.template head<2>().norm() > range; });
+    const Pose2 truth = to_pose2(scans.truth(i).value());
+    const double start = cpu_ms();
+    const auto points = chosen(map, scan, most);
+    GlobalSearchConfig gc;
+    gc.mode_ratio = ratio;
+    gc.max_modes = 3;
+    const GlobalSearchResult match = global_search(map, coarse, points, gc);
+    Pose2 best;
+    double bf = -1;
+    for (const auto& m : match.modes) {
+      const Refinement r = refine(surfels, points, {m.pose.x_m + cell / 2, m.pose.y_m + cell / 2, m.pose.yaw_rad});
+      if (r.inlier_share > bf) bf = r.inlier_share, best = r.pose;
+    }
+    times.push_back(cpu_ms() - start);
+    ++n;
+    certified += match.certified && match.complete;
+    first.push_back(double(match.modes[0].overlap) / double(points.size()));
+    if (match.modes.size() > 1) second.push_back(double(match.modes[1].overlap) / double(points.size()));
+    right0 += distance_m(match.modes[0].pose, truth) < 0.15;
+    sw.push_back(match.ms_sweep), lf.push_back(match.ms_leaves), leaves.push_back(double(match.leaves));
+    const double e = distance_m(best, truth);
+    if (e < 0.1 && turn_rad(best, truth) < 1 / 57.3) ++right, errors.push_back(e);
+  }
+  std::printf("  right %d (before %d) of %d certified %d, error %.1f mm, ms median %.1f p95 %.1f max %.1f, sweep %.1f leaves %.1f (%.0f p95 %.0f) first %.3f min %.3f, second n %zu\n", right, right0, n, certified, 1e3 * percentile(errors, .5),
+              percentile(times, .5), percentile(times, .95), percentile(times, 1.), percentile(sw, .5), percentile(lf, .5), percentile(leaves, .5), percentile(leaves, .95), percentile(first, .5), percentile(first, 0.), second.size());
 }
 
 }  // namespace
@@ -94,6 +201,8 @@ int main(int argc, char** argv) {
   const std::size_t most = argc > 2 ? static_cast<std::size_t>(std::atoi(argv[2])) : 1500;
   const double ratio = argc > 3 ? std::atof(argv[3]) : 0.9;
   const int large = argc > 4 ? std::atoi(argv[4]) : 0;
-  run(floor_60_40(1), queries, most, ratio);
-  if (large > 0) run(floor_200_150(1), large, most, ratio);
+  if (std::getenv("HALL")) { hall(most, ratio, std::atof(argv[4]), std::atof(argv[5])); return 0; }
+  run(floor_60_40(1), 0, queries, most, ratio);
+  run(floor_60_40(1), 7, queries, most, ratio);
+  if (large > 0) run(floor_200_150(1), 0, large, most, ratio);
 }

@@ -7,18 +7,19 @@
 #include "geometry/cloud.h"
 #include "geometry/pose.h"
 #include "simulation/floor.h"
-#include "simulation/mirror_scanner.h"
+#include "simulation/ideal_sweep.h"
 #include "simulation/random.h"
 #include "voxels/voxel_map.h"
 
 namespace voxlist {
 
 /// A simulated floor with a map made at true poses, for placing queries in.
-struct World {
+struct TestFloor {
   std::string name;
   Building building;
   Eigen::Vector2d low, high;  ///< where the robot may be
   VoxelMap map;
+  VoxelMap free{0.16};  ///< cells that a ray went through
 };
 
 struct WorldConfig {
@@ -34,12 +35,12 @@ WorldConfig floor_60_40(int seed);
 WorldConfig floor_200_150(int seed);
 
 /// Builds the floor and its map: a scan in each square, where there is room for the robot.
-World make_world(const WorldConfig& config);
+TestFloor make_test_floor(const WorldConfig& config);
 
 /// A pose that leaves the robot room, anywhere on the floor.
-Pose2 free_pose(const World& world, Random& random);
+Pose2 free_pose(const TestFloor& floor, Random& random);
 
-/// The scan of a robot that stands there.
-Cloud scan_at(const Building& building, const Pose2& pose, std::uint64_t seed);
+/// The scan of a robot that stands there, with people round it.
+Cloud scan_at(const Building& building, const Pose2& pose, int people, std::uint64_t seed);
 
 }  // namespace voxlist
