@@ -47,7 +47,8 @@ void put_link(const fs::path& link, const fs::path& target) {
   if (fs::exists(fs::symlink_status(link, error)) && !fs::is_symlink(link, error))
     fail(link, "is a file that is no link: remove it, or choose another name", EEXIST);
   fs::path beside = link;
-  beside += "." + std::to_string(getpid());
+  beside += ".";
+  beside += std::to_string(getpid());
   fs::remove(beside, error);
   fs::create_symlink(target, beside, error);
   if (!error) fs::rename(beside, link, error);
