@@ -15,6 +15,11 @@ Lms200Device::Config device_config(const SimulatorConfig& config) {
   return device;
 }
 
+// A counter of 32 bits, which goes round every 71 minutes.
+std::uint32_t controller_us(double run_s) {
+  return static_cast<std::uint32_t>(ScannerPorts::kControllerStart_us + std::llround(run_s * 1e6));
+}
+
 }  // namespace
 
 ScannerPorts::ScannerPorts(const MirrorScanner& scanner, const SimulatorConfig& config,
@@ -57,8 +62,7 @@ void ScannerPorts::serve_clock(std::int64_t now_us) {
   const double run_s = static_cast<double>(now_us - start_utime_us_) * 1e-6;
   for (; scanner_.motor().edge_s(edge_) <= run_s; ++edge_) {
     const double edge_s = scanner_.motor().edge_s(edge_);
-    if (scanner_.motor().clock_seen(edge_s))
-      text += std::to_string(kControllerStart_us + std::llround(edge_s * 1e6)) + "\n";
+    if (scanner_.motor().clock_seen(edge_s)) text += std::to_string(controller_us(edge_s)) + "\n";
   }
   clock_adapter_.take({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
   clock_port_.write(clock_adapter_.given_until(now_us));

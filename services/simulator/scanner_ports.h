@@ -15,7 +15,7 @@ namespace voxlist {
 
 /// The scanner as drivers meet it: an LMS 200 on one pseudo-terminal; on another a microcontroller
 /// that writes a line for each step of the mirror's motor, with the microseconds since it was
-/// switched on.
+/// switched on, in 32 bits.
 class ScannerPorts {
  public:
   /// What the microcontroller's clock says at the run's start: it was on before.
