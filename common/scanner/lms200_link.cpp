@@ -23,10 +23,8 @@ constexpr std::int64_t kReplyBits = 1610;
 // Once a reply came damaged no other will come.
 constexpr std::int64_t kAfterDamage_us = 200'000;
 
-// Pauses that the device asks for: after a refusal, and between bytes at 500 kbaud (55 us).
+// The device asks for 30 ms.
 constexpr std::int64_t kAfterRefusal_us = 35'000;
-constexpr std::int64_t kBytePause_us = 60;
-constexpr int kFastBaud = 500000;
 
 // The answer to a command that was repeated may come twice.
 constexpr std::int64_t kSecondAnswer_us = 100'000;
@@ -55,12 +53,7 @@ void Lms200Link::forget() {
 }
 
 void Lms200Link::send(std::uint8_t command, std::span<const std::uint8_t> data) {
-  const auto bytes = encode(Lms200Telegram{0, command, {data.begin(), data.end()}});
-  if (baud_ != kFastBaud) return port_.write(bytes);
-  for (const std::uint8_t& byte : bytes) {
-    port_.write({&byte, 1});
-    wait(kBytePause_us);
-  }
+  port_.write(encode(Lms200Telegram{0, command, {data.begin(), data.end()}}));
 }
 
 void Lms200Link::receive(std::int64_t timeout_us) {

@@ -33,7 +33,7 @@ class Lms200Link {
   void set_baud(int baud);
   int baud() const { return baud_; }
 
-  /// Sends a command, with the pauses between bytes that the device needs at 500 kbaud.
+  /// Sends a command and waits for nothing.
   void send(std::uint8_t command, std::span<const std::uint8_t> data);
 
   /// A command that may be sent again when no answer came, or only when it was refused.

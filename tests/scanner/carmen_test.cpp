@@ -1,5 +1,6 @@
 // Real ranges through the device double and the session: what went in comes out.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <iostream>
@@ -7,8 +8,10 @@
 #include <numbers>
 
 #include "carmen_log.h"
+#include "live_lms200.h"
 #include "lms200_bench.h"
 #include "scanner/lms200.h"
+#include "serial/serial_port.h"
 
 namespace voxlist {
 namespace {
@@ -72,6 +75,11 @@ struct Comparison {
       }
     }
   }
+
+  void print(double limit_m) const {
+    std::cout << lines << " lines, " << ranges << " ranges, " << none << " without, " << beyond
+              << " beyond " << limit_m << " m, " << wrong << " wrong\n";
+  }
 };
 
 class Carmen : public testing::Test {
@@ -99,14 +107,50 @@ class Carmen : public testing::Test {
       result.add(*line, waiting[next++], limit_m);
     }
     EXPECT_EQ(driver.report().lost_scans, 0);
-    std::cout << result.lines << " lines, " << result.ranges << " ranges, " << result.none
-              << " without, " << result.beyond << " beyond " << limit_m << " m, " << result.wrong
-              << " wrong\n";
+    result.print(limit_m);
     return result;
   }
 
   std::vector<std::vector<float>> scans_;
 };
+
+TEST_F(Carmen, RangesComeThroughARealPseudoTerminalAsTheyWentIn) {
+  constexpr int kSpeed = 10;
+  constexpr int kLines = 1000;
+  const auto link =
+      std::filesystem::temp_directory_path() / ("voxlist_carmen_" + std::to_string(getpid()));
+  Player player(scans_);
+  std::mutex mutex;
+  std::vector<LaserLine> waiting;
+  LiveLms200 device(
+      link,
+      [&](std::int64_t utime_us, double angle) {
+        const std::lock_guard lock(mutex);
+        LaserLine line = player.measure(utime_us, angle);
+        waiting.push_back(line);
+        return line;
+      },
+      kSpeed);
+  SerialPort port(link, 9600);
+  Lms200Config config;
+  config.port = link;
+  config.range_m = 80;
+  config.resolution_deg = 0.5;
+  Lms200 driver(port, config);
+  driver.begin();
+  Comparison result;
+  for (std::size_t i = 0; i < kLines; ++i) {
+    const auto line = driver.next(1'000'000);
+    ASSERT_TRUE(line) << i;
+    const std::lock_guard lock(mutex);
+    result.add(*line, waiting[i], 81.83);
+  }
+  driver.end();
+  std::cout << "pseudo-terminal, " << kSpeed << " times real time: ";
+  result.print(81.83);
+  EXPECT_EQ(driver.report().damaged, 0);
+  EXPECT_EQ(result.wrong, 0);
+}
 
 TEST_F(Carmen, RangesInCentimetresComeOutAsTheyWentIn) {
   Lms200Config config;
