@@ -107,13 +107,11 @@ TEST(MirrorMonitor, PublishesTheMirrorsAngleAtAnEdgeOfItsClock) {
   EXPECT_LT(scanner.error_deg(), 0.1);
   EXPECT_NEAR(scanner.mirror->rate_radps, std::numbers::pi, 0.002);
   EXPECT_NEAR(scanner.mirror->step_rad, 0.9 * kDeg, 1e-9);
-  const double steps = static_cast<double>(scanner.mirror->utime - kWall_us) / 5000.0;
-  EXPECT_NEAR(steps * 5.0, std::round(steps) * 5.0, 1.0 + 14.0)
-      << "ms: text arrives with the lines";
   const health_t health = scanner.told();
   EXPECT_EQ(health.state, health_t::STATE_OK) << health.message;
   EXPECT_GT(scanner.counted(health, "edges"), 11'900);
   EXPECT_EQ(scanner.counted(health, "lost_edges"), 0);
+  EXPECT_EQ(scanner.counted(health, "clock_restarts"), 0);
   EXPECT_NEAR(static_cast<double>(scanner.counted(health, "arm_events")), 60.0, 1.0);
   EXPECT_NEAR(static_cast<double>(scanner.counted(health, "clock_period_us")), 5000.0, 5.0);
 }
