@@ -15,13 +15,19 @@ namespace {
 
 constexpr double kPatch_m = 0.5;
 
-using Patch = std::tuple<std::size_t, int, int, int>;
+// A plane, and a square of it: along the axes that lie most in it. Across it would sort the beams
+// by what they are wrong by.
+using Patch = std::tuple<std::size_t, int, int>;
 
 Patch patch_of(const SurfaceEvidence& evidence, const Contact& contact, const SurfaceFit& fit) {
   const Eigen::Vector3d point =
       point_scanner(evidence.beams[contact.beam], fit.parameters.data()) / kPatch_m;
-  const auto index = [](double x) { return static_cast<int>(std::floor(x)); };
-  return {contact.plane, index(point.x()), index(point.y()), index(point.z())};
+  Eigen::Index across = 0;
+  fit.planes[contact.plane].normal.cwiseAbs().maxCoeff(&across);
+  const auto index = [&](Eigen::Index i) {
+    return static_cast<int>(std::floor(point[(across + i) % 3]));
+  };
+  return {contact.plane, index(1), index(2)};
 }
 
 Eigen::VectorXd row_of(const ceres::CRSMatrix& matrix, std::size_t row) {
