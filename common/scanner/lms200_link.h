@@ -76,6 +76,7 @@ class Lms200Link {
   Lms200Parser parser_;
   int baud_ = 0;
   std::int64_t received_bytes_ = 0;
+  std::int64_t looked_us_ = 0;  // at the port, the last time
 };
 
 }  // namespace voxlist

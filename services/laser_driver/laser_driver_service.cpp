@@ -31,8 +31,8 @@ std::string worry(const LaserReader::State& state, const std::string& port) {
     return laser + " is dazzled in " + std::to_string(std::lround(100.0 * state.dazzled)) +
            " % of its beams";
   if (state.lost > 0)
-    return laser + " lost " + std::to_string(state.lost) +
-           " scans in the last second; check cable, adapter and load";
+    return std::to_string(state.lost) + " scans of " + laser +
+           " were lost or refused in the last second; check cable, adapter and load";
   return {};
 }
 

@@ -130,20 +130,23 @@ void LaserReader::pass_on(LaserLine line) {
 
 void LaserReader::tell(const Lms200& driver) {
   const Lms200Report report = driver.report();
-  const Counters before = counters_of(std::exchange(told_, report));
+  Counters before = counters_of(std::exchange(told_, report));
   told_at_ = steady_clock::now();
   const std::lock_guard lock(mutex_);
   Counters now = counters_of(report);
+  std::int64_t refused = 0;
   for (auto& [name, count] : now) {
     if (const auto was = before.find(name); was != before.end()) count -= was->second;
     if (count != 0) news_.counts[name] += count;
+    if (name.starts_with("refused/")) refused += count;
   }
   constexpr double kBeams = 181.0;
   const auto lines = static_cast<double>(std::max<std::int64_t>(now["lines"], 1));
   news_.state.polluted = report.polluted;
   news_.state.jitter_us = static_cast<std::int64_t>(report.jitter_us);
   news_.state.dazzled = static_cast<double>(now["dazzled_beams"]) / (lines * kBeams);
-  news_.state.lost = now["lost_scans"];
+  // The first scans of all are refused as a matter of course.
+  news_.state.lost = before["lines"] > 0 ? now["lost_scans"] + refused : 0;
 }
 
 void LaserReader::tell_connected(const Lms200& driver) {

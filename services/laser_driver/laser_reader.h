@@ -49,7 +49,7 @@ class LaserReader {
     bool polluted = false;  ///< the front window
     std::int64_t jitter_us = 0;
     double dazzled = 0.0;   ///< part of the beams, over the last second
-    std::int64_t lost = 0;  ///< scans, over the last second
+    std::int64_t lost = 0;  ///< scans lost or refused, over the last second
   };
 
   /// What is new since the last call. Counts are increments.
