@@ -4,8 +4,10 @@
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 program=$(basename "$0")
 
-# The services that scripts/services runs, in the order of services/README.md.
-services=(localiser mapper octomap_export obstacle_detector)
+# The services that scripts/services runs, in the order of services/README.md. The first three are for
+# robots that have the mirror scanner.
+scanner_services=(laser_driver mirror_monitor cloud_assembler)
+services=("${scanner_services[@]}" localiser mapper octomap_export obstacle_detector)
 
 # Tools of LCM get a buffer that holds whole scans: with LCM's own default most large messages are lost.
 lcm_url=${LCM_DEFAULT_URL:-udpm://239.255.76.67:7667?ttl=0&recv_buf_size=8000000}

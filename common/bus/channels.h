@@ -39,7 +39,7 @@ inline constexpr Channel<pointcloud_t> kCloud{"CLOUD"};
 inline constexpr Channel<pointcloud_t> kCloudSlice{"CLOUD_SLICE"};
 
 /// Dead reckoning. Frame: odom (drifts, never jumps). Rate: 20-100 Hz.
-/// From the robot base (or a simulator, or a recording) to localiser.
+/// From the robot base (or a simulator, or a recording) to cloud_assembler, localiser.
 inline constexpr Channel<pose_t> kOdometry{"ODOMETRY"};
 
 /// Where the robot is, only while TRACKING. Frame: map (may jump). Rate: each cloud, and odometry's

@@ -20,9 +20,7 @@ class MirrorLog {
   // Times must not go back.
   MirrorAt at(std::int64_t utime_us) {
     for (; next_ < states_.size() && states_[next_].utime_us <= utime_us + reach_us_; ++next_) {
-      MirrorState state = states_[next_];
-      state.angle_known = state.angle_known && state.state == MirrorState::State::kLocked;
-      motion_.add(state);
+      motion_.add(states_[next_]);
     }
     return motion_.at(utime_us);
   }

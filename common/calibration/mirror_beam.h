@@ -34,11 +34,12 @@ Eigen::Matrix<T, 3, 1> point_scanner(const MirrorBeam& beam, const T* parameters
 struct BeamSet {
   std::vector<MirrorBeam> beams;
   std::size_t lines = 0;                 ///< with a mirror angle
-  std::size_t lines_without_mirror = 0;  ///< no LOCKED MIRROR near them
+  std::size_t lines_without_mirror = 0;  ///< no MIRROR near them
 };
 
 /// Gives each beam the mirror's angle, keeps those that the cloud assembler would make points of,
-/// and evenly chooses `max_beams` of them. Lines and states in the order of time.
+/// and evenly chooses `max_beams` of them. Lines and states in the order of time, states as of
+/// steadied().
 BeamSet gather_beams(const std::vector<LaserLine>& lines, const std::vector<MirrorState>& mirror,
                      const CloudAssemblerConfig& scanner, std::size_t max_beams);
 

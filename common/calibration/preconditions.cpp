@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 
 namespace voxlist {
 namespace {
@@ -53,13 +54,27 @@ std::string refusal_of(const ParameterInfo& info, double sd) {
               info.advice);
 }
 
-bool has_one_speed(const std::vector<MirrorBeam>& beams) {
-  std::vector<double> rates;
-  for (const MirrorBeam& beam : beams) rates.push_back(beam.rate_radps);
-  std::ranges::sort(rates);
-  const double low = rates[rates.size() / 10], high = rates[rates.size() * 9 / 10];
-  return high - low < kOneSpeed * std::max(std::abs(low), std::abs(high));
-}
+// The mirror's slow and fast speed, and whether they are two.
+struct Speeds {
+  double low_radps, high_radps;
+
+  explicit Speeds(const std::vector<MirrorBeam>& beams) {
+    std::vector<double> rates;
+    for (const MirrorBeam& beam : beams) rates.push_back(beam.rate_radps);
+    std::ranges::sort(rates);
+    low_radps = rates[rates.size() / 10];
+    high_radps = rates[rates.size() * 9 / 10];
+  }
+
+  bool are_one() const {
+    return high_radps - low_radps < kOneSpeed * std::max(std::abs(low_radps), std::abs(high_radps));
+  }
+
+  // What both angles' wander makes of the time between them.
+  double latency_sd_s(double wander_rad) const {
+    return std::numbers::sqrt2 * wander_rad / (high_radps - low_radps);
+  }
+};
 
 }  // namespace
 
@@ -78,13 +93,23 @@ std::vector<std::string> unusable(const CalibrationInput& input, const BeamSet& 
   return refusals;
 }
 
-Held held_parameters(const std::vector<MirrorBeam>& beams, const ParameterVector& start) {
+Held held_parameters(const std::vector<MirrorBeam>& beams, const ParameterVector& start,
+                     double mirror_wander_rad) {
   Held held;
-  if (has_one_speed(beams)) {
+  const Speeds speeds(beams);
+  const ParameterInfo& latency = kParameterInfos[kLatency];
+  if (speeds.are_one()) {
     held.parameters[kLatency] = true;
     held.reasons.emplace_back(
         "latency_ms is held: at one speed of the mirror it is the same as a phase, and the phases "
         "hold for this speed; to tell them apart record half of the log at another speed");
+  } else if (speeds.latency_sd_s(mirror_wander_rad) > latency.limit) {
+    held.parameters[kLatency] = true;
+    held.reasons.push_back(
+        text("latency_ms is held: MIRROR wandered by %.3f deg, which is %.2f ms between the two "
+             "speeds; to tell it record some minutes at each",
+             mirror_wander_rad / kRadPerDeg,
+             speeds.latency_sd_s(mirror_wander_rad) * latency.file_units));
   }
   for (const int side : {0, 1}) {
     if (share_of_side(beams, start, side) > kUsedSide) continue;
@@ -94,6 +119,16 @@ Held held_parameters(const std::vector<MirrorBeam>& beams, const ParameterVector
         text("side %d of the mirror is not in use: what belongs to it is held", side));
   }
   return held;
+}
+
+void add_wander(CalibrationAnswer& answer, const std::vector<MirrorBeam>& beams,
+                double mirror_wander_rad) {
+  const auto add = [&](Parameter parameter, double sd) {
+    if (!answer.held[parameter]) answer.sd[parameter] = std::hypot(answer.sd[parameter], sd);
+  };
+  add(kPhase0, mirror_wander_rad);
+  add(kPhase1, mirror_wander_rad);
+  if (!answer.held[kLatency]) add(kLatency, Speeds(beams).latency_sd_s(mirror_wander_rad));
 }
 
 std::vector<std::string> refusals_of(const std::optional<CalibrationAnswer>& answer,

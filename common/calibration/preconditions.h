@@ -17,7 +17,12 @@ struct Held {
   std::array<bool, kParameters> parameters{};
   std::vector<std::string> reasons;
 };
-Held held_parameters(const std::vector<MirrorBeam>& beams, const ParameterVector& start);
+Held held_parameters(const std::vector<MirrorBeam>& beams, const ParameterVector& start,
+                     double mirror_wander_rad);
+
+/// What MIRROR's own wander adds to the standard deviations.
+void add_wander(CalibrationAnswer& answer, const std::vector<MirrorBeam>& beams,
+                double mirror_wander_rad);
 
 /// What an answer must not be used for, by parameter.
 std::vector<std::string> refusals_of(const std::optional<CalibrationAnswer>& answer,

@@ -6,23 +6,12 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 #include <map>
-#include <tuple>
 
+#include "calibration/patches.h"
 #include "calibration/surface_problem.h"
 
 namespace voxlist {
 namespace {
-
-constexpr double kPatch_m = 0.5;
-
-using Patch = std::tuple<std::size_t, int, int, int>;
-
-Patch patch_of(const SurfaceEvidence& evidence, const Contact& contact, const SurfaceFit& fit) {
-  const Eigen::Vector3d point =
-      point_scanner(evidence.beams[contact.beam], fit.parameters.data()) / kPatch_m;
-  const auto index = [](double x) { return static_cast<int>(std::floor(x)); };
-  return {contact.plane, index(point.x()), index(point.y()), index(point.z())};
-}
 
 Eigen::VectorXd row_of(const ceres::CRSMatrix& matrix, std::size_t row) {
   Eigen::VectorXd result = Eigen::VectorXd::Zero(matrix.num_cols);
@@ -92,7 +81,7 @@ ParameterVector standard_deviations(const SurfaceEvidence& evidence, const Surfa
       covariance.add_known(row_of(jacobian, row));
       continue;
     }
-    const Patch patch = patch_of(evidence, evidence.contacts[row], fit);
+    const Patch patch = patch_of(evidence, fit, evidence.contacts[row]);
     covariance.add_contact(row_of(jacobian, row), residuals[row], patch);
   }
   const Eigen::MatrixXd matrix = covariance.matrix();

@@ -6,14 +6,14 @@
 namespace voxlist {
 namespace {
 
-// Nearer returns are the robot's own body and the mirror.
-constexpr float kFar_m = 0.5F;
-
 // A range has changed when it did by more than what driving and turning make of it.
-constexpr float kChange_m = 0.06F, kRelativeChange = 0.05F;
+constexpr float kChange_m = 0.06F, kRelativeChange = 0.07F;
+
+// A robot that turns while the mirror stands moves what the beams meet by so many beams.
+constexpr std::size_t kTurned_beams = 3;
 
 constexpr int kMinReturns = 20;
-constexpr double kMovingShare = 0.3;
+constexpr double kMovingShare = 0.25;
 
 constexpr std::size_t kMaxLines = 80;
 
@@ -26,14 +26,33 @@ constexpr double kFactor = 1.3, kMargin_us = 80'000.0;
 // Time without lines is no stillness.
 constexpr std::int64_t kMaxGap_us = 100'000;
 
-LineMotion::Seen compare(const LaserLine& a, const LaserLine& b) {
+// The nearest and the farthest of what a beam and its neighbours within kTurned_beams met; NaN when
+// the beam measured nothing.
+struct Envelope {
+  float near_m, far_m;
+};
+
+Envelope envelope(const std::vector<float>& ranges_m, std::size_t beam) {
+  const std::size_t first = beam < kTurned_beams ? 0 : beam - kTurned_beams;
+  const std::size_t last = std::min(beam + kTurned_beams, ranges_m.size() - 1);
+  Envelope result{ranges_m[beam], ranges_m[beam]};
+  for (std::size_t i = first; i <= last; ++i) {
+    if (ranges_m[i] < result.near_m) result.near_m = ranges_m[i];
+    if (ranges_m[i] > result.far_m) result.far_m = ranges_m[i];
+  }
+  return result;
+}
+
+LineMotion::Seen compare(const LaserLine& now, const LaserLine& before) {
   int returns = 0, changed = 0;
-  for (std::size_t i = 0; i < a.ranges_m.size(); ++i) {
-    const float x = a.ranges_m[i], y = b.ranges_m[i];
-    if (!(x > kFar_m) || !(y > kFar_m) || (std::isinf(x) && std::isinf(y))) continue;
+  for (std::size_t i = 0; i < now.ranges_m.size(); ++i) {
+    const float range_m = now.ranges_m[i];
+    const Envelope was = envelope(before.ranges_m, i);
+    const bool tells = std::isfinite(range_m) ? !std::isnan(was.near_m) : std::isfinite(was.far_m);
+    if (!tells || std::isnan(range_m)) continue;
     ++returns;
-    const float near = std::min(x, y);
-    changed += std::abs(x - y) > kChange_m + kRelativeChange * near;
+    const float slack_m = kChange_m + kRelativeChange * std::min(range_m, was.near_m);
+    changed += range_m < was.near_m - slack_m || range_m > was.far_m + slack_m;
   }
   if (returns < kMinReturns) return LineMotion::Seen::kNothing;
   return changed > kMovingShare * returns ? LineMotion::Seen::kMoving : LineMotion::Seen::kStill;

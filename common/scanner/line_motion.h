@@ -10,12 +10,12 @@
 namespace voxlist {
 
 /// Tells from the laser's lines alone whether they are turned by a mirror: a line is compared with
-/// one from some 20 deg of the beam's turn before. A turning mirror changes most far returns, the
-/// robot's own motion does not in so short a time.
+/// one from some 20 deg of the beam's turn before. A turning mirror changes what most beams meet,
+/// the robot's own motion does not in so short a time.
 class LineMotion {
  public:
   enum class Seen {
-    kNothing,  ///< too few far returns, or no line to compare with
+    kNothing,  ///< too few returns, or no line to compare with
     kStill,
     kMoving,
   };

@@ -18,6 +18,9 @@ constexpr int kSilentScans = 4;
 // The clock's arrivals: for so long, and no fewer than so many.
 constexpr double kWindow_us = 20e6, kWindowScans = 500.0;
 
+// What a damaged and a good scan add to the doubt of the line, and how much is too much.
+constexpr int kDamageDoubt = 15, kGoodDoubt = -1, kTooMuchDoubt = 60, kMostDoubt = 75;
+
 // Time for an answer that nobody needs.
 constexpr std::int64_t kAnswer_us = 100'000;
 
@@ -56,6 +59,7 @@ void Lms200::begin() {
   silent_us_ = 0;
   good_skipped_ = link_.counts().skipped_bytes;
   refused_in_row_ = 0;
+  doubt_ = kMostDoubt;
   last_refusal_.clear();
 }
 
@@ -77,16 +81,25 @@ std::optional<LaserLine> Lms200::take(const Lms200Event& event) {
   if (event.telegram.command != lms200::kScan) return std::nullopt;
   const Lms200ScanResult result = decode_scan(event.telegram, format_);
   if (!result.scan) {
-    ++report_.refused[result.refused];
+    refuse(result.refused);
     ++refused_in_row_;
-    last_refusal_ = result.refused;
     return std::nullopt;
   }
   LaserLine line = to_laser_line(*result.scan, format_, stamp(event, *result.scan));
+  doubt_ = std::max(doubt_ + kGoodDoubt, 0);
+  if (doubt_ >= kTooMuchDoubt) {
+    refuse("line_in_doubt");
+    return std::nullopt;
+  }
   report_.dazzled_beams += std::ranges::count(line.dazzled, 1);
   report_.polluted = result.scan->status.polluted;
   ++report_.lines;
   return line;
+}
+
+void Lms200::refuse(const std::string& reason) {
+  ++report_.refused[reason];
+  last_refusal_ = reason;
 }
 
 std::int64_t Lms200::stamp(const Lms200Event& event, const Lms200Scan& scan) {
@@ -103,8 +116,10 @@ int Lms200::lost_in_stream(std::size_t scan_bytes) {
   const std::int64_t skipped =
       link_.counts().skipped_bytes - std::exchange(good_skipped_, link_.counts().skipped_bytes);
   const double torn = static_cast<double>(skipped) / static_cast<double>(scan_bytes);
+  const int damaged = static_cast<int>(std::lround(torn));
+  if (skipped > 0) doubt_ = std::min(doubt_ + kDamageDoubt * std::max(damaged, 1), kMostDoubt);
   last_refusal_.clear();
-  return static_cast<int>(std::lround(torn)) + std::exchange(refused_in_row_, 0);
+  return damaged + std::exchange(refused_in_row_, 0);
 }
 
 void Lms200::check_stream() const {

@@ -57,6 +57,7 @@ class Lms200 {
   std::optional<LaserLine> take(const Lms200Event& event);
   std::int64_t stamp(const Lms200Event& event, const Lms200Scan& scan);
   int lost_in_stream(std::size_t scan_bytes);
+  void refuse(const std::string& reason);
   void check_stream() const;
   void close_clock();
   [[noreturn]] void fail(const std::string& what, bool silent = false) const;
@@ -70,6 +71,7 @@ class Lms200 {
   std::int64_t silent_us_ = 0;     // since the last good scan
   std::int64_t good_skipped_ = 0;  // bytes that were skipped until then
   int refused_in_row_ = 0;
+  int doubt_ = 0;  // of the line: grows with each damaged scan, shrinks with each good one
   std::string last_refusal_;
 };
 

@@ -33,7 +33,7 @@ class Lms200Link {
   void set_baud(int baud);
   int baud() const { return baud_; }
 
-  /// Sends a command, with the pauses between bytes that the device needs at 500 kbaud.
+  /// Sends a command and waits for nothing.
   void send(std::uint8_t command, std::span<const std::uint8_t> data);
 
   /// A command that may be sent again when no answer came, or only when it was refused.
@@ -76,6 +76,7 @@ class Lms200Link {
   Lms200Parser parser_;
   int baud_ = 0;
   std::int64_t received_bytes_ = 0;
+  std::int64_t looked_us_ = 0;  // at the port, the last time
 };
 
 }  // namespace voxlist

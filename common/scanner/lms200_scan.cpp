@@ -1,5 +1,6 @@
 #include "scanner/lms200_scan.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>

@@ -37,6 +37,7 @@ constexpr std::int64_t kStatusBits = 1610, kTelegramBits = 7420;
 
 // New settings in the device's memory take their time.
 constexpr std::int64_t kWriteLimit_us = 8'000'000;
+constexpr int kMaxWrites = 3;
 
 // The device is deaf for a while after a change of speed.
 constexpr std::int64_t kAfterBaud_us = 250'000;
@@ -135,6 +136,8 @@ Lms200ScanFormat Lms200Setup::configure() {
   const Lms200Configuration wanted =
       with_wanted(now, of(kRangings, config_.range_m, &Ranging::range_m));
   if (config_.write_configuration && now != wanted) {
+    // The CRC lets some damage pass: what is written back has to be read twice.
+    if (configuration() != now) fail("sends damaged answers; check cable and earth");
     write(wanted);
     now = configuration();
     if (now != wanted) fail("did not keep its settings; set write_configuration = false");
@@ -157,10 +160,11 @@ Lms200Configuration Lms200Setup::configuration() {
   return *read;
 }
 
-// Its memory bears only so many writes: once for each time that this program runs.
+// Its memory bears only so many writes, and a damaged line can cost one or two.
 void Lms200Setup::write(const Lms200Configuration& wanted) {
-  if (std::exchange(was_written_, true))
-    fail("forgot its settings; it may be defect: write_configuration = false leaves them alone");
+  if (writes_ == kMaxWrites)
+    fail("forgets its settings; it may be defect: write_configuration = false leaves them alone");
+  ++writes_;
   std::vector<std::uint8_t> password(lms200::kPassword, std::end(lms200::kPassword) - 1);
   link_.set_mode(lms200::kInstallation, password);
   const auto written = decode_written(link_.ask(lms200::kSetConfiguration, wanted.bytes,

@@ -17,7 +17,8 @@ class Lms200Setup {
   Lms200Setup(Lms200Link& link, const Lms200Config& config);
 
   /// Finds the device and returns how it sends its scans from now on. Throws Lms200Failure,
-  /// PortError; may be called again and again. It writes to the device's memory once at most.
+  /// PortError; may be called again and again. It writes to the device's memory only what differs,
+  /// and three times at most.
   Lms200ScanFormat run();
 
   /// "LMS200;301063;V02.10", once it was found.
@@ -42,7 +43,7 @@ class Lms200Setup {
   const Lms200Config config_;
   std::string type_;
   int known_baud_ = 0;
-  bool was_written_ = false;
+  int writes_ = 0;
 };
 
 }  // namespace voxlist

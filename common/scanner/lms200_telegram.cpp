@@ -1,6 +1,7 @@
 #include "scanner/lms200_telegram.h"
 
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 namespace voxlist {

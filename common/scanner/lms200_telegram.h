@@ -68,6 +68,9 @@ class Lms200Parser {
   /// byte (kGap_us) is given up; no bytes at all only tell the time.
   void feed(std::int64_t utime_us, std::span<const std::uint8_t> bytes);
 
+  /// Nobody looked until this time: what comes next may have waited, and tears no telegram.
+  void excuse(std::int64_t utime_us) { last_utime_us_ = utime_us; }
+
   /// The next event; nothing until more bytes come. 06 and 15 are events only right behind another
   /// event or after silence (kGap_us, clear): elsewhere they are data of a telegram whose beginning
   /// was lost. So a damaged line can cost an answer's 06: the reply behind it says the same.

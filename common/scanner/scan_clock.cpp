@@ -40,9 +40,6 @@ constexpr double kSlipError_us = 2000.0;
 constexpr double kFar_us = 150'000.0;
 constexpr int kFarScans = 15;
 
-// Silence after which nothing is sure any more: an index of 256 turns is good for 3.4 s.
-constexpr double kSilence_us = 1e6;
-
 struct Point {
   double x, y;
 };
@@ -86,15 +83,14 @@ ScanClock::ScanClock(const ScanClockConfig& config)
 
 std::int64_t ScanClock::first_beam_utime_us(std::int64_t utime_us,
                                             std::optional<std::uint8_t> index, int known_lost) {
-  const double silence_us = std::max(kSilence_us, 3.0 * config_.turns_per_scan * line_.turn_us);
   if (!arrivals_.empty()) {
-    const double gap_us = static_cast<double>(utime_us - arrivals_.back().utime_us);
-    if (gap_us < 0.0 || gap_us > silence_us) begin_anew();
+    const std::int64_t gap_us = utime_us - arrivals_.back().utime_us;
+    if (gap_us < 0 || static_cast<double>(gap_us) > config_.window_s * 1e6) begin_anew();
   }
   Arrival arrival{0, utime_us};
   if (!arrivals_.empty()) {
     const Arrival last = arrivals_.back();
-    arrival.turn = next_turn(last, utime_us, index, known_lost);
+    arrival.turn = next_turn(last, index, known_lost);
     if (!index) arrival.turn = corrected(last, arrival);
     const double late_us = static_cast<double>(utime_us) - line_.at_us(arrival.turn);
     note_lateness(late_us, static_cast<double>(utime_us - last.utime_us));
@@ -110,16 +106,13 @@ std::int64_t ScanClock::first_beam_utime_us(std::int64_t utime_us,
   return std::llround(line_.at_us(arrival.turn) - config_.delay_us);
 }
 
-// The turn that the index names and that is nearest to the time passed. An index that stands still
-// is none.
-std::int64_t ScanClock::next_turn(const Arrival& last, std::int64_t utime_us,
-                                  std::optional<std::uint8_t> index, int known_lost) const {
-  const std::int64_t in_order = last.turn + config_.turns_per_scan * (1 + known_lost);
-  if (!index || !index_ || *index == *index_) return in_order;
-  const double passed = static_cast<double>(utime_us - last.utime_us) / line_.turn_us;
-  const double named = static_cast<std::uint8_t>(*index - *index_);
-  return last.turn +
-         std::llround(named + 256.0 * std::max(0.0, std::round((passed - named) / 256.0)));
+// An index that stands still is none. It is good for 3.4 s, and no line is silent for so long; what
+// comes later by the clock was held up.
+std::int64_t ScanClock::next_turn(const Arrival& last, std::optional<std::uint8_t> index,
+                                  int known_lost) const {
+  if (index && index_ && *index != *index_)
+    return last.turn + static_cast<std::uint8_t>(*index - *index_);
+  return last.turn + config_.turns_per_scan * (1 + known_lost);
 }
 
 // Without an index: fewer were lost than thought when a scan comes before its time, more when many

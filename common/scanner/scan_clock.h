@@ -32,10 +32,10 @@ class ScanClock {
   explicit ScanClock(const ScanClockConfig& config);
 
   /// Time of the scan's first beam, in the clock of the arrivals, microseconds. `index` counts the
-  /// mirror's turns modulo 256, where the device tells it. Without it, scans are taken to follow
-  /// each other, but for `known_lost` that the stream showed and did not deliver before this one;
-  /// one that vanished without a trace is noticed 12 scans later. Within a millisecond about two
-  /// seconds after the start.
+  /// mirror's turns modulo 256, where the device tells it; fewer than that are lost at once.
+  /// Without it, scans are taken to follow each other, but for `known_lost` that the stream showed
+  /// and did not deliver before this one; one that vanished without a trace is noticed 12 scans
+  /// later. Within a millisecond about two seconds after the start.
   std::int64_t first_beam_utime_us(std::int64_t arrival_utime_us, std::optional<std::uint8_t> index,
                                    int known_lost = 0);
 
@@ -68,8 +68,8 @@ class ScanClock {
     }
   };
 
-  std::int64_t next_turn(const Arrival& last, std::int64_t utime_us,
-                         std::optional<std::uint8_t> index, int known_lost) const;
+  std::int64_t next_turn(const Arrival& last, std::optional<std::uint8_t> index,
+                         int known_lost) const;
   std::int64_t corrected(const Arrival& last, const Arrival& arrival);
   void note_lateness(double late_us, double gap_us);
   bool is_settled() const;

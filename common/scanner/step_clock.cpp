@@ -14,7 +14,7 @@ constexpr std::size_t kFirstEdges = 17;
 constexpr double kMemory_edges = 500.0;
 
 // Parts of a period off its place, an edge is not this clock's.
-constexpr double kMaxOff = 0.3;
+constexpr double kMaxOff = 0.42;
 
 // Of about the last 64 edges, so many that did not follow the one before by a period: another
 // clock.

@@ -34,7 +34,8 @@ class Driver {
   }
 
   std::vector<Pose2> run() {
-    std::vector<Pose2> poses{pose_};
+    std::vector<Pose2> poses(1 + static_cast<std::size_t>(config_.wait_s / config_.period_s),
+                             pose_);
     const auto most = static_cast<std::size_t>(kLongest / config_.period_s);
     while (poses.size() < most && !(arrived() && aligned())) {
       step();

@@ -16,6 +16,7 @@ struct DriveConfig {
   double turn_acceleration_max_dps2 = 90.0;
   double lookahead_m = 0.35;  ///< it steers for the path's point this far ahead: more cuts corners
   double period_s = 0.01;     ///< of the motion's steps
+  double wait_s = 0.0;        ///< it stands at its start for so long
 };
 
 /// Errors of the wheels' measure. Scales are drawn once for a seed, noise grows with the root of

@@ -44,6 +44,8 @@ struct SimulationConfig {
       86'400.0);
     v("stand_in_room", stand_in_room, "stands in the middle of this room; -1: drives the tour", -1,
       99);
+    v("wait_s", drive.wait_s, "stands at its start before it drives: time for the first cloud", 0.0,
+      3600.0);
     v("building_seed", building.seed, "of the building", 0, 1'000'000'000);
     v("changed", building.changed, "not 0: the same building later: furniture is moved, gone, new",
       0, 1'000'000'000);

@@ -1,5 +1,6 @@
 #include "simulation/transmit_line.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace voxlist {

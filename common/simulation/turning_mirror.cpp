@@ -95,7 +95,7 @@ std::optional<double> TurningMirror::arm_range_m(const Vector3d& origin, const V
   const Vector3d d = axis_.transpose() * direction;
   const double below_axis = config_.height_m - config_.arm_distance_m;
   double nearest = kInfinity;
-  for (const BlockingArm& arm : config_.arms) {
+  for (const ArmRod& arm : config_.arms) {
     const double hangs = psi_rad - arm.angle_deg * kRadPerDeg - std::numbers::pi / 2.0;
     const Vector3d middle = config_.arm_distance_m * across(hangs);
     const double y0 = below_axis / std::tan(arm.beam_last_deg * kRadPerDeg);

@@ -10,7 +10,7 @@ namespace voxlist {
 /// A thin rod, parallel to the axis, that turns with the mirror. At shaft angle `angle_deg` it
 /// hangs straight down from the axis and covers the laser's beams from `beam_first_deg` to
 /// `beam_last_deg`.
-struct BlockingArm {
+struct ArmRod {
   double angle_deg = 90.0;
   double beam_first_deg = 25.0, beam_last_deg = 60.0;
 };
@@ -29,7 +29,7 @@ struct TurningMirrorConfig {
   double axis_roll_deg = 0.0;                    ///< about x
   double flex_deg = 0.0;      ///< the plate's angle is the shaft's + flex sin(shaft's)
   bool single_sided = false;  ///< face 1 reflects nothing
-  std::vector<BlockingArm> arms{{90.0, 25.0, 60.0}, {265.0, 120.0, 155.0}};
+  std::vector<ArmRod> arms{{90.0, 25.0, 60.0}, {265.0, 120.0, 155.0}};
   double arm_distance_m = 0.06;  ///< of the rods' middles from the axis
   double arm_radius_m = 0.006;
 };

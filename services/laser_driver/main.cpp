@@ -3,6 +3,6 @@
 
 int main(int argc, char** argv) {
   using namespace voxlist;
-  return run_service<LaserDriverService, LaserDriverConfig>(
+  return run_service<LaserDriverService, Lms200Config>(
       argc, argv, {"laser_driver", "Reads a SICK LMS 200 and publishes its lines."});
 }

@@ -1,20 +1,56 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "bus/channels.h"
+#include "scanner/mirror_clock.h"
+#include "serial/edge_source.h"
+#include "services/mirror_monitor/mirror_monitor_config.h"
 
 namespace voxlist {
 
 class Bus;
 class Health;
+struct MirrorState;
 
-struct MirrorMonitorConfig {
-  template <class Visitor>
-  void visit(Visitor&) {}
-};
-
+/// Reads the mirror's clock and LASER, and publishes MIRROR for each line.
 class MirrorMonitorService {
  public:
-  MirrorMonitorService(Bus&, Health&, const MirrorMonitorConfig&) {}
+  /// Tells when text from a clock arrives, microseconds.
+  using WallClock = std::function<std::int64_t()>;
+
+  /// Throws std::invalid_argument for settings that make no sense. The clock's device may come
+  /// later, and go.
+  MirrorMonitorService(Bus& bus, Health& health, const MirrorMonitorConfig& config);
+  MirrorMonitorService(Bus& bus, Health& health, const MirrorMonitorConfig& config,
+                       WallClock wall_clock);
+
+  /// Can be read when the clock has edges.
+  int wake_fd() const { return edges_ ? edges_->wake_fd() : -1; }
+
+  /// Takes the clock's edges, and tells HEALTH how the mirror fares.
+  void tick(std::int64_t now_us);
+
+ private:
+  void take(const planar_lidar_t& message);
+  void read_edges();
+  void count();
+  void tell();
+
+  Bus& bus_;
+  Health& health_;
+  MirrorClock clock_;
+  std::unique_ptr<EdgeSource> edges_;
+  std::optional<MirrorState> last_;
+  std::int64_t now_us_ = 0;
+  std::optional<std::int64_t> arrival_us_;
+  std::map<std::string, std::int64_t> counted_;
+  std::string logged_;
 };
 
 }  // namespace voxlist

@@ -1,5 +1,10 @@
 #include "services/simulator/simulator_service.h"
 
+#include <sys/timerfd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
 #include <variant>
 #include <voxlist/pointcloud_t.hpp>
 #include <voxlist/pose_t.hpp>
@@ -23,23 +28,56 @@ std::int64_t utime_us(const SimulatedEvent& event) {
                     event);
 }
 
+bool has_scanner(const SimulatorConfig& config) { return config.output == "scanner"; }
+
+SimulatorConfig checked(SimulatorConfig config) {
+  if (config.output != "scanner" && config.output != "cloud")
+    throw std::invalid_argument("output must be \"scanner\" or \"cloud\"");
+  if (has_scanner(config) && config.speed != 1.0)
+    throw std::invalid_argument(
+        "speed must be 1: the scanner's ports run in real time. For other speeds: output = "
+        "\"cloud\"");
+  LaserFaults{config.laser_fault};
+  config.simulation.scans =
+      has_scanner(config) ? SimulationConfig::Scans::kNothing : SimulationConfig::Scans::kClouds;
+  return config;
+}
+
 }  // namespace
 
 SimulatorService::SimulatorService(Bus& bus, Health& health, const SimulatorConfig& config)
     : bus_(bus),
       health_(health),
-      speed_(config.speed),
-      run_(config.simulation),
+      config_(checked(config)),
+      run_(config_.simulation),
+      timer_(timerfd_create(CLOCK_MONOTONIC, TFD_NONBLOCK | TFD_CLOEXEC)),
       next_(run_.next()) {}
 
 void SimulatorService::tick(std::int64_t now_us) {
-  if (!start_us_) start_us_ = now_us;
-  const double run_us = speed_ * static_cast<double>(now_us - *start_us_);
+  if (!start_us_) start(now_us);
+  const double run_us = config_.speed * static_cast<double>(now_us - *start_us_);
   while (next_ && static_cast<double>(utime_us(*next_)) <= run_us) {
     publish(*next_);
     next_ = run_.next();
     if (!next_) health_.set_state(Health::State::kOk, "the tour is over");
   }
+  wait_for_next(now_us);
+}
+
+void SimulatorService::start(std::int64_t now_us) {
+  start_us_ = now_us;
+  if (has_scanner(config_)) scanner_.emplace(run_.scanner(), config_, now_us);
+}
+
+void SimulatorService::wait_for_next(std::int64_t now_us) const {
+  itimerspec when{};
+  if (next_) {
+    const double due_us = static_cast<double>(*start_us_ - now_us) +
+                          static_cast<double>(utime_us(*next_)) / config_.speed;
+    const std::int64_t wait_ns = std::max<std::int64_t>(1, std::llround(due_us * 1e3));
+    when.it_value = {wait_ns / 1'000'000'000, wait_ns % 1'000'000'000};
+  }
+  timerfd_settime(timer_.get(), 0, &when, nullptr);
 }
 
 void SimulatorService::publish(const SimulatedEvent& event) {
@@ -54,7 +92,7 @@ void SimulatorService::publish(const SimulatedEvent& event) {
   };
   std::visit(Overloaded{[&](const SimulatedOdometry& e) { publish_pose(kOdometry, e.measured); },
                         [&](const SimulatedTruth& e) { publish_pose(kTruth, e.pose); },
-                        publish_cloud, [](const auto&) {}},
+                        publish_cloud, [](const SimulatedClockEdge&) {}, [](const LaserLine&) {}},
              event);
 }
 

@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <optional>
 
+#include "services/simulator/live_scanner.h"
+#include "services/simulator/simulator_config.h"
 #include "simulation/simulated_run.h"
 
 namespace voxlist {
@@ -10,37 +12,34 @@ namespace voxlist {
 class Bus;
 class Health;
 
-/// Settings of the simulator.
-struct SimulatorConfig {
-  double speed = 1.0;
-  SimulationConfig simulation;
-
-  template <class Visitor>
-  void visit(Visitor& v) {
-    v("speed", speed, "times real time", 0.01, 1000.0);
-    simulation.visit(v);
-  }
-};
-
-/// A robot in a simulated building, as other services see one: CLOUD, ODOMETRY, TRUTH.
+/// A robot in a simulated building, as other services see one: ODOMETRY, TRUTH, and a scanner on
+/// its ports or CLOUD.
 class SimulatorService {
  public:
-  /// Builds the world. Throws std::invalid_argument when the rooms do not fit into the building.
+  /// Builds the world. Throws std::invalid_argument when the rooms do not fit into the building, or
+  /// settings do not fit together.
   SimulatorService(Bus& bus, Health& health, const SimulatorConfig& config);
 
-  /// Publishes what has happened until now. The run starts with the first call: its times count
-  /// from there.
+  /// Publishes what has happened until now. The run starts with the first call, which makes the
+  /// scanner's ports (throws PortError): its times count from there.
   void tick(std::int64_t now_us);
 
+  /// Can be read when the next event is due.
+  int wake_fd() const { return timer_.get(); }
+
  private:
+  void start(std::int64_t now_us);
+  void wait_for_next(std::int64_t now_us) const;
   void publish(const SimulatedEvent& event);
 
   Bus& bus_;
   Health& health_;
-  const double speed_;
+  const SimulatorConfig config_;
   SimulatedRun run_;
+  FileDescriptor timer_;
   std::optional<SimulatedEvent> next_;
   std::optional<std::int64_t> start_us_;
+  std::optional<LiveScanner> scanner_;
   std::int32_t clouds_ = 0;
 };
 

@@ -36,6 +36,8 @@ int run_desk(std::vector<std::string> arguments, Console& console) {
   add_map(program, chosen);
   add_localise(program, chosen);
   add_evaluate(program, chosen);
+  add_simulate(program, chosen);
+  add_calibrate(program, chosen);
   add_watch(program, chosen);
   try {
     std::ranges::reverse(arguments);  // as CLI11 wants them

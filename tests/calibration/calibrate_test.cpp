@@ -67,7 +67,7 @@ TEST(Calibration, KnowsHowWellItKnows) {
     const double ratio = std::sqrt(squares[i] / kSeeds);
     const char* key = kParameterInfos[static_cast<std::size_t>(i)].key;
     RecordProperty(key, std::to_string(ratio));
-    EXPECT_GT(ratio, 0.3) << key;
+    EXPECT_GT(ratio, 0.5) << key;
     EXPECT_LT(ratio, 2.0) << key;
   }
 }

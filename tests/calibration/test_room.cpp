@@ -169,7 +169,7 @@ TestRoom box_room(const Vector3d& size, bool floor, bool ceiling) {
 
 TestRoom lone_wall() {
   TestRoom room{"lone wall", {}, {}, {0.0, 0.0, 0.0}, {}};
-  room.boxes.push_back(block({2.0, -6.0, 0.0}, {2.1, 6.0, 4.0}));
+  room.boxes.push_back(block({3.0, -1.5, 0.0}, {3.1, 1.5, 2.4}));
   return room;
 }
 

@@ -34,7 +34,7 @@ TestRoom hall();
 /// Walls, floor and ceiling only; which of them.
 TestRoom box_room(const Eigen::Vector3d& size, bool floor = true, bool ceiling = true);
 
-/// One long wall and nothing else.
+/// One wall and nothing else.
 TestRoom lone_wall();
 
 /// How a log is recorded.

@@ -1,5 +1,6 @@
 // Real ranges through the device double and the session: what went in comes out.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <iostream>
@@ -7,8 +8,10 @@
 #include <numbers>
 
 #include "carmen_log.h"
+#include "live_lms200.h"
 #include "lms200_bench.h"
 #include "scanner/lms200.h"
+#include "serial/serial_port.h"
 
 namespace voxlist {
 namespace {
@@ -72,7 +75,20 @@ struct Comparison {
       }
     }
   }
+
+  void print(double limit_m) const {
+    std::cout << lines << " lines, " << ranges << " ranges, " << none << " without, " << beyond
+              << " beyond " << limit_m << " m, " << wrong << " wrong\n";
+  }
 };
+
+// How many lines were measured before the last one that came; the first few are left out.
+std::size_t number_of_last(const Lms200& driver) {
+  const Lms200Report report = driver.report();
+  std::int64_t number = report.lines - 1;
+  for (const auto& [reason, count] : report.refused) number += count;
+  return static_cast<std::size_t>(number);
+}
 
 class Carmen : public testing::Test {
  protected:
@@ -91,22 +107,57 @@ class Carmen : public testing::Test {
     driver.begin();
     Comparison result;
     std::vector<LaserLine> waiting;
-    std::size_t next = 0;
     while (!player.is_over()) {
       const auto line = driver.next(1'000'000);
       for (LaserLine& played : player.take()) waiting.push_back(std::move(played));
       if (!line) break;
-      result.add(*line, waiting[next++], limit_m);
+      result.add(*line, waiting[number_of_last(driver)], limit_m);
     }
     EXPECT_EQ(driver.report().lost_scans, 0);
-    std::cout << result.lines << " lines, " << result.ranges << " ranges, " << result.none
-              << " without, " << result.beyond << " beyond " << limit_m << " m, " << result.wrong
-              << " wrong\n";
+    result.print(limit_m);
     return result;
   }
 
   std::vector<std::vector<float>> scans_;
 };
+
+TEST_F(Carmen, RangesComeThroughARealPseudoTerminalAsTheyWentIn) {
+  constexpr int kSpeed = 10;
+  constexpr int kLines = 1000;
+  const auto link =
+      std::filesystem::temp_directory_path() / ("voxlist_carmen_" + std::to_string(getpid()));
+  Player player(scans_);
+  std::mutex mutex;
+  std::vector<LaserLine> waiting;
+  LiveLms200 device(
+      link,
+      [&](std::int64_t utime_us, double angle) {
+        const std::lock_guard lock(mutex);
+        LaserLine line = player.measure(utime_us, angle);
+        waiting.push_back(line);
+        return line;
+      },
+      kSpeed);
+  SerialPort port(link, 9600);
+  Lms200Config config;
+  config.port = link;
+  config.range_m = 80;
+  config.resolution_deg = 0.5;
+  Lms200 driver(port, config);
+  driver.begin();
+  Comparison result;
+  for (int i = 0; i < kLines; ++i) {
+    const auto line = driver.next(1'000'000);
+    ASSERT_TRUE(line) << i;
+    const std::lock_guard lock(mutex);
+    result.add(*line, waiting[number_of_last(driver)], 81.83);
+  }
+  driver.end();
+  std::cout << "pseudo-terminal, " << kSpeed << " times real time: ";
+  result.print(81.83);
+  EXPECT_EQ(driver.report().damaged, 0);
+  EXPECT_EQ(result.wrong, 0);
+}
 
 TEST_F(Carmen, RangesInCentimetresComeOutAsTheyWentIn) {
   Lms200Config config;

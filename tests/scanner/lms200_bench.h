@@ -48,6 +48,9 @@ class VirtualPort : public Port {
   void flush() override { device_.sent_until(now_us_, baud_); }
   std::int64_t now_us() const override { return now_us_ + clock_set_us; }
 
+  /// The host does something else.
+  void sleep(std::int64_t duration_us) { now_us_ += duration_us; }
+
   bool device_gone = false;
   std::int64_t clock_set_us = 0;  ///< by how much somebody set the host's clock
 

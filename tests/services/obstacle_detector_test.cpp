@@ -66,6 +66,7 @@ struct Heard {
 TEST(ObstacleDetector, PublishesTheNearestWallOfTheSimulatedRoom) {
   Heard heard;
   SimulatorConfig config;
+  config.output = "cloud";
   config.simulation.perfect_deskew = true;
   Health simulator_health("simulator");
   SimulatorService simulator(heard.bus, simulator_health, config);

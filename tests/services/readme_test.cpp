@@ -12,8 +12,11 @@
 
 #include "config/config.h"
 #include "config/tables.h"
+#include "services/cloud_assembler/cloud_assembler_service.h"
+#include "services/laser_driver/laser_driver_service.h"
 #include "services/localiser/localiser_service.h"
 #include "services/mapper/mapper_service.h"
+#include "services/mirror_monitor/mirror_monitor_service.h"
 #include "services/obstacle_detector/obstacle_detector_service.h"
 #include "services/octomap_export/octomap_export_service.h"
 #include "services/scan_source/scan_source_service.h"
@@ -40,6 +43,9 @@ std::string table_of() {
 
 const std::map<std::string, std::string> kServiceTables = {
     {"simulator", table_of<SimulatorConfig>()},
+    {"laser_driver", table_of<Lms200Config>()},
+    {"mirror_monitor", table_of<MirrorMonitorConfig>()},
+    {"cloud_assembler", table_of<CloudAssemblerConfig>()},
     {"scan_source", table_of<ScanSourceConfig>()},
     {"localiser", table_of<LocaliserServiceConfig>()},
     {"mapper", table_of<MapperServiceConfig>()},

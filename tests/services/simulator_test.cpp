@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <optional>
+#include <stdexcept>
 #include <vector>
 #include <voxlist/health_t.hpp>
 #include <voxlist/pointcloud_t.hpp>
@@ -10,6 +12,7 @@
 #include "bus/convert.h"
 #include "bus/health.h"
 #include "services/simulator/simulator_service.h"
+#include "services/temporary_folder.h"
 
 namespace voxlist {
 namespace {
@@ -19,6 +22,7 @@ constexpr std::int64_t kStart_us = 1'700'000'000'000'000;
 // A simulator of three seconds, and what others hear of it.
 struct Heard {
   explicit Heard(double speed) {
+    config.output = "cloud";
     config.speed = speed;
     config.simulation.duration_s = 3.0;
     bus.subscribe(kCloud, [this](const pointcloud_t& m) { clouds.push_back(m); });
@@ -87,6 +91,44 @@ TEST(Simulator, SaysInItsHealthThatTheTourIsOver) {
   const std::size_t before = heard.odometry.size();
   heard.tick(kStart_us + 9'000'000);
   EXPECT_EQ(heard.odometry.size(), before);
+}
+
+struct ScannerSimulator {
+  ScannerSimulator() {
+    config.laser_port = folder / "laser";
+    config.clock_port = folder / "clock";
+    config.simulation.duration_s = 3.0;
+    bus.subscribe(kCloud, [this](const pointcloud_t&) { ++clouds; });
+    bus.subscribe(kTruth, [this](const pose_t& m) { truth.push_back(m); });
+  }
+
+  TemporaryFolder folder;
+  SimulatorConfig config;
+  Bus bus{{.url = "memq://", .prefix = ""}};
+  Health health{"simulator"};
+  int clouds = 0;
+  std::vector<pose_t> truth;
+};
+
+TEST(Simulator, IsAScannerOnPortsUnlessToldOtherwiseAndTellsTheTruthWithOdometry) {
+  ScannerSimulator scene;
+  SimulatorService simulator(scene.bus, scene.health, scene.config);
+  simulator.tick(kStart_us);
+  EXPECT_TRUE(std::filesystem::is_symlink(scene.config.laser_port));
+  EXPECT_TRUE(std::filesystem::is_symlink(scene.config.clock_port));
+  simulator.tick(kStart_us + 2'000'000);
+  scene.bus.handle(std::chrono::milliseconds(0));
+  EXPECT_EQ(scene.clouds, 0);
+  EXPECT_EQ(scene.truth.size(), 101u);
+}
+
+TEST(Simulator, RefusesAnOutputThatIsNoneAndPortsThatAreFasterThanReal) {
+  ScannerSimulator scene;
+  scene.config.speed = 2.0;
+  EXPECT_THROW(SimulatorService(scene.bus, scene.health, scene.config), std::invalid_argument);
+  scene.config.speed = 1.0;
+  scene.config.output = "clouds";
+  EXPECT_THROW(SimulatorService(scene.bus, scene.health, scene.config), std::invalid_argument);
 }
 
 }  // namespace

@@ -81,6 +81,17 @@ TEST(Robot, KeepsItsSpeedsAndMovesOnlyWhereItFaces) {
   }
 }
 
+TEST(Robot, StandsAtItsStartForAsLongAsItIsTold) {
+  const Building world = building(1);
+  const std::vector<Eigen::Vector2d> path = plan_tour(world, {});
+  DriveConfig patient;
+  patient.wait_s = 3.0;
+  const Trajectory at_once = drive(path, {}), later = drive(path, patient);
+  EXPECT_EQ(later.at(3.0), Pose2{});
+  for (const double t : {1.0, 10.0, 50.0})
+    EXPECT_LT(distance_m(later.at(t + 3.0), at_once.at(t)), 1e-9);
+}
+
 TEST(WheelOdometry, IsTheTruthWhenTheWheelsAreRight) {
   const Trajectory truth = tour(building(1));
   const Trajectory measured = wheel_odometry(truth, {50.0, 0.0, 0.0, 0.0, 0.0}, 5);

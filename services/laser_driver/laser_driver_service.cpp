@@ -1,0 +1,75 @@
+#include "services/laser_driver/laser_driver_service.h"
+
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+#include <cmath>
+#include <voxlist/planar_lidar_t.hpp>
+
+#include "bus/bus.h"
+#include "bus/convert.h"
+#include "bus/health.h"
+#include "serial/serial_port.h"
+
+namespace voxlist {
+namespace {
+
+// More beams than this are dazzled by something that a person can turn away.
+constexpr double kDazzled = 0.02;
+
+std::unique_ptr<Port> open_serial(const std::string& path) {
+  auto port = std::make_unique<SerialPort>(path, 9600);
+  if (!port->warning().empty()) spdlog::warn("{}", port->warning());
+  return port;
+}
+
+// What a person should know, of a laser that sends; empty when all is well.
+std::string worry(const LaserReader::State& state, const std::string& port) {
+  const std::string laser = "the LMS 200 on " + port;
+  if (state.polluted) return laser + " needs its front window cleaned";
+  if (state.dazzled > kDazzled)
+    return laser + " is dazzled in " + std::to_string(std::lround(100.0 * state.dazzled)) +
+           " % of its beams";
+  if (state.lost > 0)
+    return std::to_string(state.lost) + " scans of " + laser +
+           " were lost or refused in the last second; check cable, adapter and load";
+  return {};
+}
+
+}  // namespace
+
+LaserDriverService::LaserDriverService(Bus& bus, Health& health, const Lms200Config& config)
+    : bus_(bus), health_(health), port_(config.port), reader_(config, open_serial) {}
+
+void LaserDriverService::tick(std::int64_t) {
+  const LaserReader::News news = reader_.take();
+  for (const LaserReader::Line& line : news.lines) publish(line);
+  for (const auto& [what, times] : news.counts) health_.count(what, times);
+  tell(news.state);
+}
+
+void LaserDriverService::publish(const LaserReader::Line& line) {
+  bus_.publish(kLaser, to_message(line.line));
+  const auto waited = std::chrono::steady_clock::now() - line.ready;
+  health_.add_latency_us(std::chrono::duration_cast<std::chrono::microseconds>(waited).count());
+}
+
+void LaserDriverService::tell(const LaserReader::State& state) {
+  using S = Health::State;
+  health_.count("jitter_us", state.jitter_us - told_jitter_us_);
+  told_jitter_us_ = state.jitter_us;
+  if (state.failed) {
+    health_.set_state(S::kError, state.message);
+  } else if (!state.connected) {
+    health_.set_state(S::kWarning, "looking for the LMS 200 on " + port_);
+  } else {
+    const std::string message = worry(state, port_);
+    health_.set_state(message.empty() ? S::kOk : S::kWarning, message);
+  }
+  if (state.message.empty() || state.message == logged_) return;
+  logged_ = state.message;
+  if (state.failed) spdlog::warn("{}", state.message);
+  if (state.connected) spdlog::info("reads {}", state.message);
+}
+
+}  // namespace voxlist

@@ -1,0 +1,40 @@
+#include "services/mirror_monitor/mirror_monitor_config.h"
+
+#include <numbers>
+#include <stdexcept>
+
+namespace voxlist {
+namespace {
+
+constexpr double kDegree_rad = std::numbers::pi / 180.0;
+
+// Fewer beams cannot be told from noise.
+constexpr double kMinArm_deg = 8.0;
+
+}  // namespace
+
+MirrorClockConfig mirror_clock_config(const MirrorMonitorConfig& config) {
+  const std::size_t arms = config.arm_angle_deg.size();
+  if (arms < 1 || arms > 2) throw std::invalid_argument("arm_angle_deg must name one arm or two");
+  if (config.arm_first_beam_deg.size() != arms || config.arm_last_beam_deg.size() != arms) {
+    throw std::invalid_argument(
+        "arm_first_beam_deg and arm_last_beam_deg must have as many values as arm_angle_deg");
+  }
+  MirrorClockConfig result;
+  for (std::size_t i = 0; i < arms; ++i) {
+    const double first_deg = config.arm_first_beam_deg[i], last_deg = config.arm_last_beam_deg[i];
+    if (last_deg - first_deg < kMinArm_deg)
+      throw std::invalid_argument(
+          "an arm must block 8 deg of beams or more: see arm_last_beam_deg");
+    result.arms.push_back(
+        {config.arm_angle_deg[i] * kDegree_rad, first_deg * kDegree_rad, last_deg * kDegree_rad});
+  }
+  result.arm_height_max_m = config.arm_height_max_m;
+  result.steps_per_revolution = config.steps_per_revolution;
+  result.has_clock = config.clock != "none";
+  result.turns_backwards = config.turns_backwards;
+  result.staircase = config.staircase;
+  return result;
+}
+
+}  // namespace voxlist

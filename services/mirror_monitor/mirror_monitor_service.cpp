@@ -1,0 +1,119 @@
+#include "services/mirror_monitor/mirror_monitor_service.h"
+
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+#include <cmath>
+#include <numbers>
+#include <voxlist/mirror_state_t.hpp>
+#include <voxlist/planar_lidar_t.hpp>
+
+#include "bus/bus.h"
+#include "bus/convert.h"
+#include "bus/health.h"
+#include "scanner/mirror_state.h"
+#include "services/mirror_monitor/open_edge_source.h"
+
+namespace voxlist {
+namespace {
+
+std::int64_t wall_us() {
+  using namespace std::chrono;
+  return duration_cast<microseconds>(system_clock::now().time_since_epoch()).count();
+}
+
+Health::State how_bad(const MirrorState& state) {
+  switch (state.state) {
+    case MirrorState::State::kLocked:
+      return Health::State::kOk;
+    case MirrorState::State::kStalled:
+      return Health::State::kError;
+    case MirrorState::State::kFault:
+    case MirrorState::State::kSearching:
+      break;
+  }
+  return Health::State::kWarning;
+}
+
+}  // namespace
+
+MirrorMonitorService::MirrorMonitorService(Bus& bus, Health& health,
+                                           const MirrorMonitorConfig& config)
+    : MirrorMonitorService(bus, health, config, wall_us) {}
+
+MirrorMonitorService::MirrorMonitorService(Bus& bus, Health& health,
+                                           const MirrorMonitorConfig& config, WallClock wall_clock)
+    : bus_(bus),
+      health_(health),
+      clock_(mirror_clock_config(config)),
+      edges_(open_edge_source(config.clock, std::move(wall_clock))) {
+  bus_.subscribe(kLaser, [this](const planar_lidar_t& m) { take(m); });
+}
+
+void MirrorMonitorService::take(const planar_lidar_t& message) {
+  const std::optional<LaserLine> line = from_message(message);
+  if (!line) return health_.count("LASER/bad_line");
+  read_edges();
+  last_ = clock_.add_line(*line);
+  bus_.publish(kMirror, to_message(*last_));
+  arrival_us_ = bus_.arrival_utime_us();
+}
+
+void MirrorMonitorService::read_edges() {
+  if (!edges_) return;
+  for (const std::int64_t utime_us : edges_->read(now_us_)) clock_.add_edge(utime_us);
+}
+
+void MirrorMonitorService::tick(std::int64_t now_us) {
+  now_us_ = now_us;
+  read_edges();
+  if (arrival_us_) health_.add_latency_us(now_us - *arrival_us_);
+  arrival_us_.reset();
+  count();
+  tell();
+}
+
+// HEALTH adds up; counts and measures here are given as they are.
+void MirrorMonitorService::count() {
+  const auto set = [this](const char* what, std::int64_t value) {
+    std::int64_t& counted = counted_[what];
+    if (value != counted || value == 0) health_.count(what, value - counted);
+    counted = value;
+  };
+  const MirrorClock::Counts counts = clock_.counts();
+  set("edges", counts.edges);
+  set("lost_edges", counts.lost_edges);
+  set("extra_edges", counts.extra_edges);
+  set("clock_restarts", counts.clock_restarts);
+  set("clock_garbage", edges_ ? edges_->garbage() : 0);
+  set("clock_period_us", std::llround(clock_.clock_period_us()));
+  set("arm_events", counts.arm_events);
+  set("strange_arm_events", counts.strange_arm_events);
+  set("missed_steps", counts.missed_steps);
+  set("stalls", counts.stalls);
+  set("time_jumps", counts.time_jumps);
+  const double residual_rad = last_ ? last_->residual_rad : 0.0;
+  set("residual_mdeg", std::llround(residual_rad * 180e3 / std::numbers::pi));
+}
+
+void MirrorMonitorService::tell() {
+  using S = Health::State;
+  std::string what = edges_ ? edges_->trouble() : "";
+  S state = what.empty() ? S::kOk : S::kWarning;
+  if (!last_) {
+    state = S::kWarning;
+    if (what.empty()) what = "no LASER yet: does laser_driver run?";
+  } else if (how_bad(*last_) > state || what.empty()) {
+    state = how_bad(*last_);
+    what = last_->reason + (what.empty() ? "" : "; " + what);
+  }
+  health_.set_state(state, what);
+  // Durations in a reason change all the time: what is logged is its first words.
+  const std::string words = what.substr(0, what.find_first_of(":0123456789"));
+  if (words == logged_) return;
+  logged_ = words;
+  if (what.empty()) spdlog::info("the mirror's angle is known");
+  if (!what.empty()) spdlog::warn("{}", what);
+}
+
+}  // namespace voxlist

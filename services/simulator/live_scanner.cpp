@@ -1,0 +1,23 @@
+#include "services/simulator/live_scanner.h"
+
+#include <chrono>
+
+namespace voxlist {
+
+LiveScanner::LiveScanner(const MirrorScanner& scanner, const SimulatorConfig& config,
+                         std::int64_t start_utime_us)
+    : start_utime_us_(start_utime_us),
+      ports_(scanner, config, start_utime_us),
+      thread_([this](const std::stop_token& stop) { run(stop); }) {}
+
+void LiveScanner::run(const std::stop_token& stop) {
+  using Clock = std::chrono::steady_clock;
+  using std::chrono::microseconds, std::chrono::milliseconds;
+  const Clock::time_point start = Clock::now();
+  for (Clock::time_point now = start; !stop.stop_requested(); now = Clock::now()) {
+    ports_.serve(start_utime_us_ + std::chrono::duration_cast<microseconds>(now - start).count());
+    std::this_thread::sleep_until(now + milliseconds(1));
+  }
+}
+
+}  // namespace voxlist
