@@ -13,11 +13,10 @@ namespace voxlist {
 
 inline constexpr std::size_t kSweepPlanes = 13, kSweepDigits = 5;
 
-/// One sweep as plain numbers: counters at bits first_bit + 0 .. 64 * words - 1.
+/// One sweep as plain numbers: counter i sums up the map's bits at digits' bits + i.
 struct SweepJob {
   const std::uint64_t* map;
-  std::int64_t first_bit;
-  std::size_t words;  ///< a multiple of the vector's
+  std::size_t words;  ///< of counters, a multiple of the vector's
   struct Digit {
     const std::int64_t* bits;  ///< the cells whose weight has this binary digit, a multiple of 8
     std::size_t size;
@@ -42,7 +41,7 @@ template <class Word>
 void sweep(const SweepJob& job) {
   constexpr std::size_t kWords = sizeof(Word) / sizeof(std::uint64_t);
   for (std::size_t word = 0; word < job.words; word += kWords) {
-    const std::int64_t at = job.first_bit + static_cast<std::int64_t>(64 * word);
+    const auto at = static_cast<std::int64_t>(64 * word);
     BitCounters<Word, kSweepPlanes> counters;
     for (std::size_t p = 0; p < kSweepDigits; ++p) {
       const SweepJob::Digit& digit = job.digits[p];

@@ -1,43 +1,40 @@
 #include "matching/global_search.h"
 
 #include <tbb/parallel_for.h>
-#include <time.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <numbers>
+#include <optional>
+#include <tuple>
 
 #include "matching/bit_counters.h"
+#include "matching/turned_points.h"
 
 namespace voxlist {
 namespace {
 
-constexpr double kTwoPi = 2.0 * std::numbers::pi;
-constexpr std::int32_t kGroup = CoarseMap::kFactor;  // angles of a node
-constexpr std::size_t kLeafPlanes = 13;
+constexpr std::int32_t kFactor = CoarseMap::kFactor;
+constexpr std::int32_t kGroup = TurnedPoints::kGroup;
 
-double cpu_ms() {
-  timespec t{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_nsec) * 1e-6;
-}
+using WindowCounters = BitCounters<std::uint64_t, kCountPlanes>;
 
-struct Cell {
-  std::int16_t x, y;
-};
-
+// Translations [8 x, 8 x + 8) x [8 y, 8 y + 8) at the angles of a group.
 struct Node {
   int bound;
-  std::int32_t group, x, y;  // coarse translation
+  std::int32_t group, x, y;
 };
 
-// The largest counter of a window, and one lane that has it.
-template <std::size_t kPlanes>
-std::pair<int, int> maximum(const BitCounters<std::uint64_t, kPlanes>& counters) {
+struct LatticePose {
+  int overlap = 0;
+  std::int32_t angle = 0, x = 0, y = 0;  // cells of the map
+};
+
+// The largest counter, and the first lane that has it.
+std::pair<int, int> largest(const WindowCounters& counters) {
   std::uint64_t lanes = ~std::uint64_t{0};
   int value = 0;
-  for (std::size_t p = kPlanes; p-- > 0;) {
+  for (std::size_t p = kCountPlanes; p-- > 0;) {
     if (const std::uint64_t with = lanes & counters.planes[p]) {
       lanes = with;
       value |= 1 << p;
@@ -46,167 +43,53 @@ std::pair<int, int> maximum(const BitCounters<std::uint64_t, kPlanes>& counters)
   return {value, std::countr_zero(lanes)};
 }
 
-// The best few distinct modes so far.
-class Modes {
- public:
-  explicit Modes(const GlobalSearchConfig& config) : config_(config) {}
-
-  // What a further one must have to matter.
-  int least() const { return modes_.size() < config_.max_modes ? 0 : modes_.back().overlap + 1; }
-
-  void add(const GlobalMode& mode) {
-    const auto same = [&](const GlobalMode& other) {
-      return distance_m(mode.pose, other.pose) < config_.mode_distance_m &&
-             turn_rad(mode.pose, other.pose) < config_.mode_turn_rad;
-    };
-    const auto known = std::find_if(modes_.begin(), modes_.end(), same);
-    if (known != modes_.end() && known->overlap >= mode.overlap) return;
-    std::erase_if(modes_, same);
-    const auto behind = std::find_if(modes_.begin(), modes_.end(), [&](const GlobalMode& other) {
-      return other.overlap < mode.overlap;
-    });
-    modes_.insert(behind, mode);
-    if (modes_.size() > config_.max_modes) modes_.pop_back();
-  }
-
-  const std::vector<GlobalMode>& best() const { return modes_; }
-
- private:
-  const GlobalSearchConfig& config_;
-  std::vector<GlobalMode> modes_;  // by falling overlap
-};
-
-class Search {
- public:
-  Search(const TolerantMap& map, const CoarseMap& coarse, std::span<const Eigen::Vector3f> points,
-         const GlobalSearchConfig& config)
-      : map_(map), coarse_(coarse), config_(config) {
-    double radius = map.cell_m();
-    for (const auto& p : points) {
-      const auto z = static_cast<std::int32_t>(
-                         std::floor(static_cast<double>(p.z()) / map.cell_height_m())) -
-                     map.lowest().z;
-      if (z < 0 || z >= map.size_z()) continue;
-      points_.push_back({p.x(), p.y()});
-      layers_.push_back(z);
-      layer_offsets_.push_back(static_cast<std::int32_t>(map.offset(0, 0, z)));
-      radius = std::max(radius, double(p.head<2>().norm()));
+// Lanes of a word of counters that are at least `least`: compared from the highest digit down.
+std::uint64_t lanes_from(const WindowCounters& counters, int least) {
+  std::uint64_t greater = 0, equal = ~std::uint64_t{0};
+  for (std::size_t p = kCountPlanes; p-- > 0;) {
+    if (least >> p & 1) {
+      equal &= counters.planes[p];
+    } else {
+      greater |= equal & counters.planes[p];
+      equal &= ~counters.planes[p];
     }
-    const auto finest = static_cast<std::int32_t>(std::ceil(kTwoPi * radius / map.cell_m()));
-    groups_ = (finest + kGroup - 1) / kGroup;
-    angles_ = groups_ * kGroup;
   }
+  return greater | equal;
+}
 
-  GlobalSearchResult run() {
-    GlobalSearchResult result;
-    const double t0 = cpu_ms();
-    const double t1 = cpu_ms();
-    sweep();
-    const double t2 = cpu_ms();
-    descend(result);
-    result.ms_cells = t1 - t0;
-    result.ms_sweep = t2 - t1;
-    result.ms_leaves = cpu_ms() - t2;
-    result.lattice_poses = double(angles_) * map_.size_x() * map_.size_y();
-    return result;
-  }
+int count_of(const WindowCounters& counters, int lane) {
+  int count = 0;
+  for (std::size_t p = 0; p < kCountPlanes; ++p)
+    count |= static_cast<int>(counters.planes[p] >> lane & 1) << p;
+  return count;
+}
 
- private:
-  double yaw(std::int32_t angle) const { return kTwoPi * angle / angles_; }
-
-  // Turns all points by all angles, group by group: offsets of their windows for the leaves, coarse
-  // cells with their counts for the nodes.
-  void sweep() {
-    const std::size_t n = points_.size();
-    offsets_.resize(n * static_cast<std::size_t>(angles_));
-    cells_.resize(offsets_.size());
-    boxes_.resize(static_cast<std::size_t>(angles_));
-    counts_.resize(static_cast<std::size_t>(groups_));
-    tbb::parallel_for(0, groups_, [&](std::int32_t g) {
-      Reach reach(n);
-      for (std::int32_t a = g * kGroup; a < (g + 1) * kGroup; ++a) turn(a, reach);
-      coarse_sweep(coarse_, coarse_cells(reach), {0, 0, coarse_.size_x(), coarse_.size_y()},
-                   config_.instructions, counts_[static_cast<std::size_t>(g)]);
+// Upper bounds of all nodes.
+class Bounds {
+ public:
+  Bounds(const CoarseMap& map, TurnedPoints& points, Instructions instructions)
+      : map_(map), counts_(static_cast<std::size_t>(points.groups())) {
+    tbb::parallel_for(0, points.groups(), [&](std::int32_t group) {
+      points.turn(group);
+      counts_[static_cast<std::size_t>(group)] =
+          coarse_sweep(map, points.coarse_cells(group, map), instructions);
     });
   }
 
-  // Lowest and highest cell of each point over the angles of a group.
-  struct Reach {
-    explicit Reach(std::size_t n) : low_x(n, kFar), low_y(n, kFar), high_x(n, -kFar), high_y(n, -kFar) {}
-    static constexpr std::int32_t kFar = 1 << 29;
-    std::vector<std::int32_t> low_x, low_y, high_x, high_y;
-  };
-
-  struct CellBox {
-    std::int32_t low_x, low_y, high_x, high_y;
-  };
-
-  void turn(std::int32_t angle, Reach& reach) {
-    const auto c = static_cast<float>(std::cos(yaw(angle)) / map_.cell_m()),
-               s = static_cast<float>(std::sin(yaw(angle)) / map_.cell_m());
-    const std::size_t n = points_.size();
-    std::int32_t* out = offsets_.data() + n * static_cast<std::size_t>(angle);
-    Cell* cells = cells_.data() + n * static_cast<std::size_t>(angle);
-    CellBox box{Reach::kFar, Reach::kFar, -Reach::kFar, -Reach::kFar};
-    for (std::size_t i = 0; i < n; ++i) {
-      const float px = points_[i].x(), py = points_[i].y();
-      const auto x = static_cast<std::int32_t>(std::floor(c * px - s * py)),
-                 y = static_cast<std::int32_t>(std::floor(s * px + c * py));
-      reach.low_x[i] = std::min(reach.low_x[i], x);
-      reach.low_y[i] = std::min(reach.low_y[i], y);
-      reach.high_x[i] = std::max(reach.high_x[i], x);
-      reach.high_y[i] = std::max(reach.high_y[i], y);
-      box = {std::min(box.low_x, x), std::min(box.low_y, y), std::max(box.high_x, x), std::max(box.high_y, y)};
-      out[i] = layer_offsets_[i] + y * map_.size_x() + x;
-      cells[i] = {static_cast<std::int16_t>(x), static_cast<std::int16_t>(y)};
-    }
-    boxes_[static_cast<std::size_t>(angle)] = box;
-  }
-
-  std::vector<CoarseCell> coarse_cells(const Reach& reach) const {
-    const std::size_t n = points_.size();
-    std::vector<std::int64_t> bits(n);
-    for (std::size_t i = 0; i < n; ++i) {
-      const std::int32_t x = reach.low_x[i] >> 3, y = reach.low_y[i] >> 3;
-      const int wide_x = reach.high_x[i] - 8 * x > 8, wide_y = reach.high_y[i] - 8 * y > 8;
-      bits[i] = coarse_.bit(wide_x, wide_y, x, y, layers_[i]);
-    }
-    std::sort(bits.begin(), bits.end());
-    std::vector<CoarseCell> merged;
-    for (const std::int64_t bit : bits) {
-      if (merged.empty() || merged.back().bit != bit) merged.push_back({bit, 0});
-      ++merged.back().weight;
-    }
-    return merged;
-  }
-
-  // All nodes with a count of at least `least`, best first.
+  // All nodes with a bound of at least `least`, best first, in an order that depends on nothing
+  // else.
   std::vector<Node> nodes_from(int least) const {
     std::vector<Node> nodes;
-    for (std::int32_t g = 0; g < groups_; ++g) {
-      const NodeCounts& counts = counts_[static_cast<std::size_t>(g)];
-      for (std::size_t w = 0; w < counts.words; ++w) {
-        std::uint64_t planes[kCountPlanes];
-        for (std::size_t p = 0; p < kCountPlanes; ++p) planes[p] = counts.planes[p * counts.words + w];
-        // Lanes with count >= least: compare from the highest digit down.
-        std::uint64_t greater = 0, equal = ~std::uint64_t{0};
-        for (std::size_t p = kCountPlanes; p-- > 0;) {
-          if (least >> p & 1) {
-            equal &= planes[p];
-          } else {
-            greater |= equal & planes[p];
-            equal &= ~planes[p];
-          }
-        }
-        for (std::uint64_t lanes = greater | equal; lanes != 0; lanes &= lanes - 1) {
+    for (std::size_t group = 0; group < counts_.size(); ++group) {
+      for (std::size_t word = 0; word < counts_[group].words; ++word) {
+        const WindowCounters counters = counters_at(group, word);
+        for (std::uint64_t lanes = lanes_from(counters, least); lanes != 0; lanes &= lanes - 1) {
           const int lane = std::countr_zero(lanes);
-          const std::int64_t at = static_cast<std::int64_t>(w * 64) + lane;
-          const auto x = static_cast<std::int32_t>(at % coarse_.row_bits()), y = static_cast<std::int32_t>(at / coarse_.row_bits());
-          if (x >= coarse_.size_x() || y >= coarse_.size_y()) continue;
-          int count = 0;
-          for (std::size_t p = 0; p < kCountPlanes; ++p)
-            count |= static_cast<int>(planes[p] >> lane & 1) << p;
-          nodes.push_back({count, g, x, y});
+          const std::int64_t bit = static_cast<std::int64_t>(64 * word) + lane;
+          const Node node{count_of(counters, lane), static_cast<std::int32_t>(group),
+                          static_cast<std::int32_t>(bit % map_.row_bits()),
+                          static_cast<std::int32_t>(bit / map_.row_bits())};
+          if (node.x < map_.size_x() && node.y < map_.size_y()) nodes.push_back(node);
         }
       }
     }
@@ -216,136 +99,203 @@ class Search {
     return nodes;
   }
 
-  // Garbage lanes between rows may have higher counts: a bound still.
-  int highest_bound() const {
+  // No node's bound is higher.
+  int highest() const {
     int best = 0;
-    for (const NodeCounts& counts : counts_) {
-      for (std::size_t w = 0; w < counts.words; ++w) {
-        std::uint64_t lanes = ~std::uint64_t{0};
-        int value = 0;
-        for (std::size_t p = kCountPlanes; p-- > 0;) {
-          if (const std::uint64_t with = lanes & counts.planes[p * counts.words + w]) {
-            lanes = with;
-            value |= 1 << p;
-          }
-        }
-        best = std::max(best, value);
-      }
+    for (std::size_t group = 0; group < counts_.size(); ++group)
+      for (std::size_t word = 0; word < counts_[group].words; ++word)
+        best = std::max(best, largest(counters_at(group, word)).first);
+    return best;
+  }
+
+ private:
+  WindowCounters counters_at(std::size_t group, std::size_t word) const {
+    const NodeCounts& counts = counts_[group];
+    WindowCounters counters;
+    for (std::size_t p = 0; p < kCountPlanes; ++p)
+      counters.planes[p] = counts.planes[p * counts.words + word];
+    return counters;
+  }
+
+  const CoarseMap& map_;
+  std::vector<NodeCounts> counts_;  // by group
+};
+
+// Counts the poses of nodes one by one, 64 at a time.
+class PoseCounter {
+ public:
+  PoseCounter(const TolerantMap& map, const TurnedPoints& points) : map_(map), points_(points) {}
+
+  // The best pose of a node, if any has at least `least`.
+  std::optional<LatticePose> best_of(const Node& node, int least) const {
+    std::optional<LatticePose> best;
+    for (std::int32_t angle = node.group * kGroup; angle < (node.group + 1) * kGroup; ++angle) {
+      const std::int32_t x = node.x * kFactor, y = node.y * kFactor;
+      const auto [count, lane] = best_of_window(angle, x, y, least);
+      if (count < least) continue;
+      best = LatticePose{count, angle, x + lane / kFactor, y + lane % kFactor};
+      least = count + 1;
     }
     return best;
   }
 
-  // The best pose of a node, if it has one of at least `least`.
-  GlobalMode best_of(const Node& node, int least) const {
-    GlobalMode best;
-    best.overlap = least - 1;
-    for (std::int32_t a = node.group * kGroup; a < (node.group + 1) * kGroup; ++a) {
-      const auto [count, lane] = window(a, node.x * kGroup, node.y * kGroup, best.overlap + 1);
-      if (count <= best.overlap) continue;
-      best.overlap = count;
-      best.pose = {(map_.lowest().x + node.x * kGroup + lane / 8) * map_.cell_m(),
-                   (map_.lowest().y + node.y * kGroup + lane % 8) * map_.cell_m(),
-                   wrap_angle(yaw(a))};
-    }
-    return best;
+ private:
+  std::pair<int, int> best_of_window(std::int32_t angle, std::int32_t x, std::int32_t y,
+                                     int least) const {
+    if (!points_.inside(angle, x, y))
+      return count(least, [&](std::size_t i) { return points_.window(angle, i, x, y); });
+    const std::int32_t* places = points_.places(angle);
+    const std::int64_t moved = map_.place(x, y, 0);
+    return count(least, [&](std::size_t i) { return map_.window(moved + places[i]); });
   }
 
-  // The best translation of an 8 x 8 window; gives up early when none can reach `least`.
-  std::pair<int, int> window(std::int32_t angle, std::int32_t x, std::int32_t y, int least) const {
-    const CellBox& box = boxes_[static_cast<std::size_t>(angle)];
-    const bool inside = map_.holds(box.low_x + x, box.low_y + y) && map_.holds(box.high_x + x, box.high_y + y);
-    const std::int64_t at = map_.offset(x, y, 0);
-    const std::size_t first = points_.size() * static_cast<std::size_t>(angle);
-    const std::int32_t* offsets = offsets_.data() + first;
-    const Cell* cells = cells_.data() + first;
-    return inside ? count(least, [&](std::size_t i) { return map_.window(at + offsets[i]); })
-                  : count(least, [&](std::size_t i) { return window_at_edge(cells[i], layers_[i], x, y); });
-  }
-
-  // The same for a window that may reach past the map.
-  std::uint64_t window_at_edge(const Cell& cell, std::int32_t z, std::int32_t x, std::int32_t y) const {
-    const std::int32_t cx = cell.x + x, cy = cell.y + y;
-    if (map_.holds(cx, cy)) return map_.window(map_.offset(cx, cy, z));
-    if (cx <= -8 || cy <= -8 || cx >= map_.size_x() || cy >= map_.size_y()) return 0;
-    std::uint64_t bits = 0;
-    for (int b = 0; b < 64; ++b)
-      bits |= std::uint64_t{map_.occupied(cx + b / 8, cy + b % 8, z)} << b;
-    return bits;
-  }
-
+  // Stops early, below `least`, when no pose can reach it any more.
   template <class Window>
   std::pair<int, int> count(int least, const Window& window) const {
-    BitCounters<std::uint64_t, kLeafPlanes> counters;
+    constexpr std::size_t kCheckEvery = 128;
+    WindowCounters counters;
     const std::size_t n = points_.size();
-    constexpr std::size_t kCheck = 128;
-    for (std::size_t begin = 0; begin < n; begin += kCheck) {
-      const std::size_t end = std::min(n, begin + kCheck);
+    for (std::size_t begin = 0; begin < n; begin += kCheckEvery) {
+      const std::size_t end = std::min(n, begin + kCheckEvery);
       for (std::size_t i = begin; i < end; i += 8) {
-        std::uint64_t w[8];
-        for (std::size_t k = 0; k < 8; ++k) w[k] = i + k < end ? window(i + k) : 0;
-        counters.add8(w);
+        std::uint64_t words[8];
+        for (std::size_t k = 0; k < 8; ++k) words[k] = i + k < end ? window(i + k) : 0;
+        counters.add8(words);
       }
-      if (end == n) break;
-      const auto so_far = maximum(counters);
-      if (so_far.first + static_cast<int>(n - end) < least) return so_far;
+      const auto so_far = largest(counters);
+      if (end == n || so_far.first + static_cast<int>(n - end) < least) return so_far;
     }
-    return maximum(counters);
-  }
-
-  void descend(GlobalSearchResult& result) {
-    const int highest = highest_bound();
-    // A first answer, from the nodes that promise most: it tells which others matter.
-    int best = 0;
-    for (int least = highest; best == 0 && least > 0; least = least * 9 / 10) {
-      const std::vector<Node> top = nodes_from(least);
-      for (std::size_t i = 0; i < std::min<std::size_t>(top.size(), 16); ++i)
-        best = std::max(best, best_of(top[i], best + 1).overlap);
-    }
-    const auto floor_of = [&](int overlap) {
-      return std::max(1, static_cast<int>(std::ceil(config_.mode_ratio * overlap)));
-    };
-    const std::vector<Node> nodes = nodes_from(floor_of(best));
-    result.nodes = static_cast<std::int64_t>(nodes.size());
-    result.certified = result.complete = true;
-    Modes modes(config_);
-    for (const Node& node : nodes) {
-      const int least = std::max(floor_of(best), modes.least());
-      if (node.bound < least) break;
-      if (++result.leaves > config_.max_leaves) {
-        result.complete = false;
-        result.certified = node.bound <= best;
-        result.bound = std::max(best, node.bound);
-        break;
-      }
-      const GlobalMode mode = best_of(node, least);
-      if (mode.overlap < least) continue;
-      best = std::max(best, mode.overlap);
-      modes.add(mode);
-    }
-    result.bound = std::max(result.bound, best);
-    for (const GlobalMode& mode : modes.best())
-      if (mode.overlap >= floor_of(best)) result.modes.push_back(mode);
+    return {0, 0};
   }
 
   const TolerantMap& map_;
-  const CoarseMap& coarse_;
-  const GlobalSearchConfig config_;
-  std::vector<Eigen::Vector2f> points_;
-  std::vector<std::int32_t> layers_, layer_offsets_;
-  std::vector<std::int32_t> offsets_;  // of the windows, by angle and point
-  std::vector<Cell> cells_;
-  std::vector<CellBox> boxes_;
-  std::int32_t groups_ = 0, angles_ = 0;
-  std::vector<NodeCounts> counts_;
+  const TurnedPoints& points_;
+};
+
+// The best distinct modes so far.
+class Modes {
+ public:
+  explicit Modes(const SearchConfig& config) : config_(config) {}
+
+  // What a pose must have to matter.
+  int least() const {
+    if (modes_.empty()) return 1;
+    const auto share = static_cast<int>(std::ceil(config_.mode_ratio * modes_.front().overlap));
+    return std::max({1, share, full() ? modes_.back().overlap + 1 : 0});
+  }
+
+  void add(const OverlapMode& mode) {
+    const auto same = [&](const OverlapMode& other) {
+      return distance_m(mode.pose, other.pose) < config_.mode_distance_m &&
+             turn_rad(mode.pose, other.pose) < config_.mode_turn_rad;
+    };
+    if (std::any_of(modes_.begin(), modes_.end(), [&](const OverlapMode& other) {
+          return other.overlap >= mode.overlap && same(other);
+        }))
+      return;
+    std::erase_if(modes_, same);
+    const auto behind = std::find_if(modes_.begin(), modes_.end(), [&](const OverlapMode& other) {
+      return other.overlap < mode.overlap;
+    });
+    modes_.insert(behind, mode);
+    if (modes_.size() > config_.max_modes) modes_.resize(config_.max_modes);
+  }
+
+  int best() const { return modes_.empty() ? 0 : modes_.front().overlap; }
+
+  // Best first; none with less than mode_ratio of the best.
+  std::vector<OverlapMode> take() {
+    const double floor = config_.mode_ratio * best();
+    std::erase_if(modes_, [&](const OverlapMode& mode) { return mode.overlap < floor; });
+    return std::move(modes_);
+  }
+
+ private:
+  bool full() const { return modes_.size() >= config_.max_modes; }
+
+  const SearchConfig& config_;
+  std::vector<OverlapMode> modes_;  // by falling overlap
 };
 
 }  // namespace
 
-GlobalSearchResult global_search(const TolerantMap& map, const CoarseMap& coarse,
-                                 std::span<const Eigen::Vector3f> points,
-                                 const GlobalSearchConfig& config) {
-  if (map.empty() || points.empty()) return {};
-  return Search(map, coarse, points, config).run();
+GlobalMap::GlobalMap(const VoxelMap& map, double finest_m, double reach_m)
+    : tolerant_(map,
+                [&] {
+                  constexpr double kMostCells = 800.0;
+                  double cell_m = finest_m;
+                  while (reach_m > kMostCells * cell_m) cell_m *= 2.0;
+                  return cell_m;
+                }()),
+      coarse_(tolerant_, reach_m) {}
+
+std::vector<Eigen::Vector3f> GlobalMap::choose_points(std::span<const Eigen::Vector3f> scan,
+                                                      std::size_t most) const {
+  constexpr double kFull = 0.3;  // of the ground plan
+  std::vector<Eigen::Vector3f> telling;
+  for (const auto& p : scan) {
+    const bool near = std::hypot(double(p.x()), double(p.y())) <= coarse_.reach_m();
+    if (near && tolerant_.fill(tolerant_.layer(double(p.z()))) < kFull) telling.push_back(p);
+  }
+  // By the golden ratio: any first part of the points is spread evenly too, so that hopeless poses
+  // are given up early.
+  constexpr double kGolden = 0.6180339887498949;
+  std::vector<Eigen::Vector3f> chosen;
+  const std::size_t n = std::min(most, telling.size());
+  for (std::size_t i = 0; i < n; ++i) {
+    const double share = std::fmod(static_cast<double>(i) * kGolden, 1.0);
+    chosen.push_back(telling[static_cast<std::size_t>(share * double(telling.size()))]);
+  }
+  return chosen;
+}
+
+SearchResult global_search(const GlobalMap& map, std::span<const Eigen::Vector3f> points,
+                           const SearchConfig& config, Instructions instructions) {
+  SearchResult result;
+  const TolerantMap& tolerant = map.tolerant();
+  TurnedPoints turned(tolerant, points);
+  if (tolerant.empty() || turned.size() == 0) return result;
+
+  const Bounds bounds(map.coarse(), turned, instructions);
+  const PoseCounter counter(tolerant, turned);
+  const auto pose_of = [&](const LatticePose& pose) {
+    return Pose2{(tolerant.lowest().x + pose.x + 0.5) * tolerant.cell_m(),
+                 (tolerant.lowest().y + pose.y + 0.5) * tolerant.cell_m(),
+                 wrap_angle(turned.yaw_rad(pose.angle))};
+  };
+  Modes modes(config);
+  const auto look_at = [&](const Node& node) {
+    if (const auto best = counter.best_of(node, modes.least()))
+      modes.add({pose_of(*best), best->overlap});
+  };
+
+  // A first answer tells which of the other nodes can matter.
+  constexpr std::size_t kFirstNodes = 16;
+  for (int least = bounds.highest(); modes.best() == 0 && least > 0; least = least * 9 / 10) {
+    const std::vector<Node> promising = bounds.nodes_from(least);
+    for (std::size_t i = 0; i < std::min(kFirstNodes, promising.size()); ++i) look_at(promising[i]);
+  }
+  result.complete = true;
+  result.bound = modes.best();
+  std::int64_t nodes = 0;
+  for (const Node& node : bounds.nodes_from(modes.least())) {
+    if (node.bound < modes.least()) break;
+    if (nodes == config.max_nodes) {
+      result.complete = false;
+      result.bound = node.bound;
+      break;
+    }
+    ++nodes;
+    look_at(node);
+  }
+  result.bound = std::max(result.bound, modes.best());
+  result.certified = modes.best() > 0 && result.bound == modes.best();
+  const double poses_in_node = double(kFactor) * kFactor * kGroup;
+  const double all_nodes = double(map.coarse().size_x()) * map.coarse().size_y() * turned.groups();
+  result.lattice_poses = all_nodes * poses_in_node;
+  result.poses_examined = static_cast<std::int64_t>(all_nodes + double(nodes) * poses_in_node);
+  result.modes = modes.take();
+  return result;
 }
 
 }  // namespace voxlist
