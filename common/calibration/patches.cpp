@@ -8,6 +8,10 @@ namespace {
 
 constexpr double kPatch_m = 0.5;
 
+// In thicknesses. The fronts of two cupboards 8 mm apart are two surfaces at 0.5, but one, tilted,
+// at 1.
+constexpr double kEven = 0.5;
+
 struct Mean {
   double sum = 0.0;
   int count = 0;
@@ -39,7 +43,7 @@ void drop_uneven_patches(SurfaceEvidence& evidence, const SurfaceFit& fit) {
   }
   std::vector<Contact> kept;
   for (std::size_t i = 0; i < off_m.size(); ++i)
-    if (std::abs(means[patches[i]].value()) <= evidence.thickness_m)
+    if (std::abs(means[patches[i]].value()) <= kEven * evidence.thickness_m)
       kept.push_back(evidence.contacts[i]);
   evidence.contacts = std::move(kept);
 }

@@ -12,7 +12,7 @@ using Patch = std::tuple<std::size_t, int, int>;
 
 Patch patch_of(const SurfaceEvidence& evidence, const SurfaceFit& fit, const Contact& contact);
 
-/// Takes away the contacts of patches that lie off their plane, in the mean by more than the
+/// Takes away the contacts of patches that lie off their plane, in the mean by more than half the
 /// thickness: a picture on the wall, the front of the next cupboard.
 void drop_uneven_patches(SurfaceEvidence& evidence, const SurfaceFit& fit);
 

@@ -2,34 +2,12 @@
 
 #include <cstdint>
 #include <memory>
-#include <vector>
 
-#include "scanner/arm_detector.h"
 #include "scanner/laser_line.h"
+#include "scanner/mirror_clock_config.h"
 #include "scanner/mirror_state.h"
 
 namespace voxlist {
-
-/// How a mirror is driven and marked.
-struct MirrorClockConfig {
-  /// One for a single-sided mirror, or two.
-  std::vector<BlockingArm> arms;
-
-  /// What is met lower than this above the laser is an arm or the plate's edge: see ArmDetector.
-  double arm_height_max_m = 0.075;
-
-  /// Clock edges for one turn of the mirror.
-  int steps_per_revolution = 400;
-
-  /// There is a clock: without it the mirror is not as it should be.
-  bool has_clock = true;
-
-  /// psi falls as the mirror turns.
-  bool turns_backwards = false;
-
-  /// The mirror stands still between the clock's edges; else it turns evenly.
-  bool staircase = false;
-};
 
 /// Tells where the mirror is, from its motor's clock, from its arms in the laser's lines, or from
 /// what there is of both. A pure estimator: time comes with the data.

@@ -1,7 +1,5 @@
 #include "services/simulator/live_scanner.h"
 
-#include <chrono>
-
 namespace voxlist {
 
 LiveScanner::LiveScanner(const MirrorScanner& scanner, const SimulatorConfig& config,
@@ -11,11 +9,9 @@ LiveScanner::LiveScanner(const MirrorScanner& scanner, const SimulatorConfig& co
       thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
 void LiveScanner::run(const std::stop_token& stop) {
-  using Clock = std::chrono::steady_clock;
   using std::chrono::microseconds, std::chrono::milliseconds;
-  const Clock::time_point start = Clock::now();
-  for (Clock::time_point now = start; !stop.stop_requested(); now = Clock::now()) {
-    ports_.serve(start_utime_us_ + std::chrono::duration_cast<microseconds>(now - start).count());
+  for (Clock::time_point now = start_; !stop.stop_requested(); now = Clock::now()) {
+    ports_.serve(start_utime_us_ + std::chrono::duration_cast<microseconds>(now - start_).count());
     std::this_thread::sleep_until(now + milliseconds(1));
   }
 }

@@ -252,7 +252,7 @@ TEST(Bus, IsWokenByADeviceThatCanBeRead) {
   int ends[2];
   ASSERT_EQ(pipe(ends), 0);
   ASSERT_EQ(write(ends[1], "x", 1), 1);
-  Bus bus({.url = "memq://"});
+  Bus bus(memory());
   constexpr std::chrono::hours kLongerThanTheTest(1);
   EXPECT_TRUE(bus.handle(kLongerThanTheTest, ends[0]));
   close(ends[0]);

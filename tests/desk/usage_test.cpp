@@ -30,7 +30,7 @@ class Usage : public testing::Test {
 };
 
 TEST_F(Usage, IsExplainedWithExamplesByEachCommand) {
-  for (const std::string command : {"import", "map", "localise", "evaluate"}) {
+  for (const std::string command : {"import", "map", "localise", "evaluate", "calibrate"}) {
     const test::DeskRun run = test::run({command, "--help"});
     EXPECT_EQ(run.exit_code, 0);
     EXPECT_THAT(run.out, HasSubstr("  voxlist " + command + " "));
