@@ -8,7 +8,9 @@
 #include <voxlist/map_octree_t.hpp>
 #include <voxlist/map_request_t.hpp>
 #include <voxlist/map_update_t.hpp>
+#include <voxlist/mirror_state_t.hpp>
 #include <voxlist/obstacles_t.hpp>
+#include <voxlist/planar_lidar_t.hpp>
 #include <voxlist/pointcloud_t.hpp>
 #include <voxlist/pose_t.hpp>
 
@@ -31,6 +33,8 @@ constexpr std::array<std::uint8_t, 7> kAbsurdBytes = {0xFF, 0x80, 0x7F, 0x20, 0x
 class Victim {
  public:
   explicit Victim(Bus& bus) : bus_(bus) {
+    listen(kLaser, Delivery::kEvery, [](const planar_lidar_t& m) { from_message(m); });
+    listen(kMirror, Delivery::kEvery, [](const mirror_state_t& m) { from_message(m); });
     listen(kCloud, Delivery::kEvery, [](const pointcloud_t& m) { from_message(m); });
     listen(kCloudSlice, Delivery::kLatest, [](const pointcloud_t& m) { from_message(m); });
     listen(kOdometry, Delivery::kEvery, [](const pose_t& m) { from_message(m); });
