@@ -231,12 +231,15 @@ GlobalMap::GlobalMap(const VoxelMap& map, double finest_m, double reach_m)
 
 std::vector<Eigen::Vector3f> GlobalMap::choose_points(std::span<const Eigen::Vector3f> scan,
                                                       std::size_t most) const {
-  constexpr double kFull = 0.3;  // of the ground plan
-  std::vector<Eigen::Vector3f> telling;
+  constexpr double kFull = 0.5;         // of the ground plan
+  constexpr double kFewestKept = 0.05;  // of the points; fewer tell nothing, so that all are kept
+  std::vector<Eigen::Vector3f> near, telling;
   for (const auto& p : scan) {
-    const bool near = std::hypot(double(p.x()), double(p.y())) <= coarse_.reach_m();
-    if (near && tolerant_.fill(tolerant_.layer(double(p.z()))) < kFull) telling.push_back(p);
+    if (std::hypot(double(p.x()), double(p.y())) > coarse_.reach_m()) continue;
+    near.push_back(p);
+    if (tolerant_.fill(tolerant_.layer(double(p.z()))) < kFull) telling.push_back(p);
   }
+  if (double(telling.size()) < kFewestKept * double(near.size())) telling = std::move(near);
   // By the golden ratio: any first part of the points is spread evenly too, so that hopeless poses
   // are given up early.
   constexpr double kGolden = 0.6180339887498949;

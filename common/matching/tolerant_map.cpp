@@ -90,6 +90,7 @@ void TolerantMap::measure_fill() {
       plan[i] |= layer[i];
     }
     fill_.push_back(static_cast<double>(cells));
+    occupied_cells_ += cells;
   }
   const auto ground = static_cast<double>(std::count(plan.begin(), plan.end(), 1));
   for (double& fill : fill_) fill /= ground;

@@ -55,6 +55,8 @@ class TolerantMap {
   /// The window at any cell: what is outside the map is free.
   std::uint64_t window_anywhere(std::int32_t x, std::int32_t y, std::int32_t z) const;
 
+  std::int64_t occupied_cells() const { return occupied_cells_; }
+
   /// Share of the map's ground plan that is occupied in a layer: near 1 for floors and ceilings,
   /// which match wherever the robot is. 0 outside.
   double fill(std::int32_t z) const {
@@ -72,6 +74,7 @@ class TolerantMap {
   std::int32_t size_x_ = 0, size_y_ = 0, size_z_ = 0;
   std::vector<std::uint8_t> columns_;  // bit k of a cell's byte is the cell k rows farther
   std::vector<double> fill_;
+  std::int64_t occupied_cells_ = 0;
 };
 
 }  // namespace voxlist
