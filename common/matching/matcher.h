@@ -21,19 +21,19 @@ struct MatcherConfig {
   /// "search": certified branch and bound. "particle_filter": the paper's, for comparison (seconds
   /// a cloud).
   std::string engine = "search";
-  /// Cell of the tolerant map and lattice of the poses (m) in a search of the whole map, and in a
-  /// window around a prediction; refinement goes on from there. Finer: fewer false modes, and the
-  /// cube of the ratio slower.
-  double resolution_m = 0.08;
+  /// Cell of the tolerant map and lattice of the poses (m) in a search of the whole map (doubled
+  /// for scans that reach far), and in a window around a prediction; refinement goes on from there.
+  /// Finer: fewer false modes, and the cube of the ratio slower.
+  double resolution_m = 0.04;
   double window_resolution_m = 0.16;
   /// Points farther away than this take no part (m).
   double max_range_m = 60.0;
   /// Most points that a search counts, and that a refinement uses. Changes speed, and little else.
   int search_points = 1000;
   int refine_points = 4000;
-  /// Most nodes that a search opens before it gives up the certificate. Changes speed: about 10 us
+  /// Most nodes that a search opens before it gives up the certificate. Changes speed: 10 to 40 us
   /// each.
-  int max_nodes = 100'000;
+  int max_nodes = 50'000;
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -56,14 +56,17 @@ struct MatchMode {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   /// Share of the points in occupied cells of the tolerant map, before refinement.
   double overlap = 0.0;
-  /// Share of the points that lie on the map's surfaces, after refinement: the finer score, used to
-  /// rank.
+  /// Share of the points that lie on the map's surfaces, after refinement.
   double fit = 0.0;
 };
 
 struct Match {
-  /// By falling fit; distinct in pose; empty when there is nothing to match.
+  /// Best first, distinct in pose; empty when there is nothing to match. By overlap after a search
+  /// of the whole map, by fit after others.
   std::vector<MatchMode> modes;
+  /// How near the second mode comes to the first: 0, there is none; 1 and above, nobody can tell
+  /// which is right.
+  double rivalry = 0.0;
   /// No pose of the lattice overlaps more than the best found.
   bool certified = false;
   /// No mode of nearly as much overlap was left out for want of time.

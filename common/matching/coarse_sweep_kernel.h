@@ -1,0 +1,60 @@
+#pragma once
+// The sweep for one width of word, for files that are compiled for one instruction set each. It
+// calls nothing from elsewhere: a shared inline function that one of them compiled could end up in
+// the portable code.
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+#include "matching/bit_counters.h"
+
+namespace voxlist {
+
+inline constexpr std::size_t kSweepPlanes = 13, kSweepDigits = 5;
+
+/// One sweep as plain numbers: counter i sums up the map's bits at digits' bits + i.
+struct SweepJob {
+  const std::uint64_t* map;
+  std::size_t words;  ///< of counters, a multiple of the vector's
+  struct Digit {
+    const std::int64_t* bits;  ///< the cells whose weight has this binary digit, a multiple of 8
+    std::size_t size;
+  } digits[kSweepDigits];
+  std::uint64_t* out;  ///< planes one after the other, `words` each
+};
+
+namespace {
+
+template <class Word>
+Word load_bits(const std::uint64_t* words, std::int64_t bit) {
+  Word low, high;
+  const std::uint64_t* from = words + (bit >> 6);
+  std::memcpy(&low, from, sizeof low);
+  std::memcpy(&high, from + 1, sizeof high);
+  const auto shift = static_cast<std::uint64_t>(bit & 63);
+  // Twice, because a shift by 64 has no meaning.
+  return (low >> shift) | ((high << 1) << (63 - shift));
+}
+
+template <class Word>
+void sweep(const SweepJob& job) {
+  constexpr std::size_t kWords = sizeof(Word) / sizeof(std::uint64_t);
+  for (std::size_t word = 0; word < job.words; word += kWords) {
+    const auto at = static_cast<std::int64_t>(64 * word);
+    BitCounters<Word, kSweepPlanes> counters;
+    for (std::size_t p = 0; p < kSweepDigits; ++p) {
+      const SweepJob::Digit& digit = job.digits[p];
+      for (std::size_t i = 0; i < digit.size; i += 8) {
+        Word w[8];
+        for (std::size_t k = 0; k < 8; ++k) w[k] = load_bits<Word>(job.map, digit.bits[i + k] + at);
+        counters.add8(w, p);
+      }
+    }
+    for (std::size_t p = 0; p < kSweepPlanes; ++p)
+      std::memcpy(job.out + p * job.words + word, &counters.planes[p], sizeof(Word));
+  }
+}
+
+}  // namespace
+}  // namespace voxlist

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "matching/coarse_sweep.h"
+#include "matching/search.h"
+#include "matching/tolerant_map.h"
+
+namespace voxlist {
+
+/// A map made ready for searching all of it: rebuild it after the map has changed. Reading from
+/// several threads is safe.
+class GlobalMap {
+ public:
+  /// `finest_m`: edge of the cells and lattice of the poses, doubled until `reach_m`, the farthest
+  /// point of the scans to come, is at most 800 cells: farther points ask for finer angles.
+  GlobalMap(const VoxelMap& map, double finest_m, double reach_m);
+
+  const TolerantMap& tolerant() const { return tolerant_; }
+  const CoarseMap& coarse() const { return coarse_; }
+
+  /// The points of a scan (base, m) that tell poses apart: within reach, and not in layers that the
+  /// map fills (floor, ceiling). At most `most`, spread evenly over the scan.
+  std::vector<Eigen::Vector3f> choose_points(std::span<const Eigen::Vector3f> scan,
+                                             std::size_t most) const;
+
+ private:
+  TolerantMap tolerant_;
+  CoarseMap coarse_;
+};
+
+/// Finds the poses of the whole map, every heading, at which most points fall into cells of the
+/// tolerant map, on the lattice of its cells and of angles that move no point by more than a cell.
+///
+/// Nodes of 8 x 8 translations at 8 angles are bounded all at once, by a bit-sliced sweep over the
+/// coarse map; then they are searched pose by pose, the most promising first, as long as their
+/// bounds can matter. Exact and deterministic: the same bits with any number of threads and any
+/// instructions. config.max_nodes bounds the nodes that are searched pose by pose.
+SearchResult global_search(const GlobalMap& map, std::span<const Eigen::Vector3f> points,
+                           const SearchConfig& config,
+                           Instructions instructions = best_instructions());
+
+}  // namespace voxlist
