@@ -19,10 +19,9 @@ struct TestFloor {
   Building building;
   Eigen::Vector2d low, high;  ///< where the robot may be
   VoxelMap map;
-  VoxelMap free{0.16};  ///< cells that a ray went through
 };
 
-struct WorldConfig {
+struct TestFloorConfig {
   std::string name;
   BuildingConfig wing;
   int wings = 1;
@@ -30,12 +29,12 @@ struct WorldConfig {
 };
 
 /// 60 x 40 m: three wings of 60 x 13.3 m. Seeds are the building's.
-WorldConfig floor_60_40(int seed);
+TestFloorConfig floor_60_40(int seed);
 /// 200 x 150 m: ten wings of 200 x 15 m.
-WorldConfig floor_200_150(int seed);
+TestFloorConfig floor_200_150(int seed);
 
 /// Builds the floor and its map: a scan in each square, where there is room for the robot.
-TestFloor make_test_floor(const WorldConfig& config);
+TestFloor make_test_floor(const TestFloorConfig& config);
 
 /// A pose that leaves the robot room, anywhere on the floor.
 Pose2 free_pose(const TestFloor& floor, Random& random);
