@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace voxlist {
 namespace {
@@ -23,7 +24,9 @@ constexpr std::size_t kPassages = 8, kMinPassages = 3;
 // Longer than normal, for certain.
 constexpr double kFactor = 1.3, kMargin_us = 80'000.0;
 
-// Time without lines is no stillness.
+// Time without lines is no stillness: a line speaks for the time since the one before it, or for
+// two lines' at most, and nobody saw what happened in a hole longer than this.
+constexpr double kLineSpeaks_us = 30'000.0;
 constexpr std::int64_t kMaxGap_us = 100'000;
 
 // The nearest and the farthest of what a beam and its neighbours within kTurned_beams met; NaN when
@@ -80,23 +83,43 @@ LineMotion::Seen LineMotion::add(const LaserLine& line, double lag_us) {
 void StallWatch::add(LineMotion::Seen seen, std::int64_t utime_us) {
   const std::int64_t gap_us = utime_us - last_us_.value_or(utime_us);
   last_us_ = utime_us;
-  since_moving_us_ += static_cast<double>(std::max<std::int64_t>(gap_us, 0));
+  if (gap_us > kMaxGap_us) {
+    still_us_ = since_moving_us_ = 0.0;
+    hole_since_passage_ = true;
+  }
+  const double spoken_for_us = std::clamp(static_cast<double>(gap_us), 0.0, kLineSpeaks_us);
+  since_moving_us_ += spoken_for_us;
   moving_lines_ = seen == LineMotion::Seen::kMoving ? moving_lines_ + 1 : 0;
   if (moving_lines_ > 0) still_us_ = since_moving_us_ = 0.0;
-  if (seen == LineMotion::Seen::kStill && gap_us > 0 && gap_us < kMaxGap_us)
-    still_us_ += static_cast<double>(gap_us);
-  longest_us_ = std::max(longest_us_, still_us_);
+  if (seen == LineMotion::Seen::kStill) still_us_ += spoken_for_us;
+  longest_still_.since_passage_us = std::max(longest_still_.since_passage_us, still_us_);
+  longest_unmoved_.since_passage_us = std::max(longest_unmoved_.since_passage_us, since_moving_us_);
 }
 
 void StallWatch::turned() {
-  normal_us_.push_back(longest_us_);
-  if (normal_us_.size() > kPassages) normal_us_.pop_front();
-  longest_us_ = still_us_;
+  // A hole has cut short what would have been normal.
+  if (std::exchange(hole_since_passage_, false)) return;
+  longest_still_.passed(still_us_);
+  longest_unmoved_.passed(since_moving_us_);
 }
 
+bool StallWatch::knows_normal() const { return longest_still_.earlier_us.size() >= kMinPassages; }
+
 bool StallWatch::stalled() const {
-  if (normal_us_.size() < kMinPassages) return false;
-  return still_us_ > kFactor * *std::ranges::max_element(normal_us_) + kMargin_us;
+  return knows_normal() && still_us_ > kFactor * longest_still_.normal_us() + kMargin_us;
 }
+
+bool StallWatch::moving() const {
+  const double normal_us = knows_normal() ? longest_unmoved_.normal_us() : 0.0;
+  return since_moving_us_ < std::max(kRestless_us, normal_us + kMargin_us);
+}
+
+void StallWatch::Longest::passed(double now_us) {
+  earlier_us.push_back(since_passage_us);
+  if (earlier_us.size() > kPassages) earlier_us.pop_front();
+  since_passage_us = now_us;
+}
+
+double StallWatch::Longest::normal_us() const { return *std::ranges::max_element(earlier_us); }
 
 }  // namespace voxlist

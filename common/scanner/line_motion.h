@@ -31,7 +31,8 @@ class LineMotion {
 
 /// Notices that the mirror stands, from how long lines have been still: longer than they ever were
 /// between the last passages of the arms (blind wedges, flat ground, a wall straight ahead). Knows
-/// nothing before the first few passages.
+/// nothing before the first few passages. Only lines that came count: time without them is no
+/// stillness, and after a tenth of a second without them the watch begins anew.
 class StallWatch {
  public:
   void add(LineMotion::Seen seen, std::int64_t utime_us);
@@ -45,8 +46,8 @@ class StallWatch {
   /// For how long lines have been still, microseconds.
   double still_us() const { return still_us_; }
 
-  /// Lines changed not long ago.
-  bool moving() const { return since_moving_us_ < kRestless_us; }
+  /// Lines changed not long ago: no longer than a turning mirror leaves them as they are.
+  bool moving() const;
 
   /// Several lines in a row have changed: what stood is turning again.
   bool turning() const { return moving_lines_ >= kTurningLines; }
@@ -54,14 +55,25 @@ class StallWatch {
   void reset() { *this = {}; }
 
  private:
+  // The longest that something took between each of the last passages.
+  struct Longest {
+    void passed(double now_us);
+    double normal_us() const;
+
+    double since_passage_us = 0.0;
+    std::deque<double> earlier_us;
+  };
+
   static constexpr double kRestless_us = 300'000.0;
   static constexpr int kTurningLines = 5;
 
+  bool knows_normal() const;
+
   double still_us_ = 0.0;  // of the time since lines moved
   double since_moving_us_ = kRestless_us;
-  int moving_lines_ = 0;     // in a row
-  double longest_us_ = 0.0;  // since the last passage
-  std::deque<double> normal_us_;
+  int moving_lines_ = 0;  // in a row
+  bool hole_since_passage_ = false;
+  Longest longest_still_, longest_unmoved_;
   std::optional<std::int64_t> last_us_;
 };
 

@@ -30,6 +30,12 @@ void MirrorByClock::notice_restart() {
   track_.emplace(config_.arms.size(), step_rad_, passage_fit_options(rate_radps()));
 }
 
+bool MirrorByClock::changed_rate() {
+  const bool changed = clock_.counts().rate_changes != rate_changes_;
+  rate_changes_ = clock_.counts().rate_changes;
+  return changed && locked();
+}
+
 void MirrorByClock::set_direction(double direction) {
   if (direction == direction_) return;
   direction_ = direction;

@@ -40,6 +40,10 @@ class MirrorByClock {
   /// Looks whether the clock's count became known or started anew: then no earlier passage holds.
   void notice_restart();
 
+  /// Passages fitted the clock, and since the last call its edges came to have another period: the
+  /// motor turns at another speed. To be asked before notice_restart().
+  bool changed_rate();
+
   /// The sign of the mirror's rate, as it was seen; when it changes no earlier passage holds.
   void set_direction(double direction);
 
@@ -80,7 +84,8 @@ class MirrorByClock {
   double direction_;
   StepClock clock_;
   std::optional<MirrorTrack> track_;
-  std::int64_t generation_ = 0;  // of the clock's count that the track is of
+  std::int64_t generation_ = 0;    // of the clock's count that the track is of
+  std::int64_t rate_changes_ = 0;  // that were noticed
   std::int64_t origin_us_ = 0;
 };
 

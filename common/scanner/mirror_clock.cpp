@@ -24,7 +24,9 @@ class MirrorClock::Impl {
 
   MirrorState add_line(const LaserLine& line) {
     notice_time(line.utime_us);
+    notice_new_rate();
     evidence_.clock.notice_restart();
+    evidence_.silence.looked(line.utime_us);
     for (const ArmPassage& passage : detector_.add(line)) take(passage);
     notice_stall(line);
     MirrorState state = mirror_answer(evidence_);
@@ -57,6 +59,14 @@ class MirrorClock::Impl {
     evidence_.now_us = utime_us;
   }
 
+  // How still a turning mirror leaves the lines, and all else that was learnt, was of the old rate.
+  void notice_new_rate() {
+    if (!evidence_.clock.changed_rate()) return;
+    detector_.reset();
+    evidence_.start(evidence_.now_us);
+    evidence_.new_rate = true;
+  }
+
   bool jumped(std::int64_t utime_us) const {
     const std::int64_t gap_us = utime_us - evidence_.now_us;
     if (gap_us < -kOutOfOrder_us) return true;
@@ -73,6 +83,7 @@ class MirrorClock::Impl {
     if (by_clock.slip_rad && !evidence_.wrong_rate()) note_slip(*by_clock.slip_rad);
     if (by_arms.value_or(false) || by_clock.fits.value_or(false)) {
       evidence_.stall.turned();
+      evidence_.new_rate = false;
     } else if (by_arms || by_clock.fits) {
       ++counts_.strange_arm_events;
     }
@@ -85,7 +96,7 @@ class MirrorClock::Impl {
   }
 
   void notice_stall(const LaserLine& line) {
-    if (!evidence_.stall.add(line, evidence_.rate_radps(), evidence_.arms_silent())) return;
+    if (!evidence_.stall.add(line, evidence_.rate_radps(), evidence_.arms_silent_in_view())) return;
     ++counts_.stalls;
     detector_.reset();
     evidence_.clock.doubt();

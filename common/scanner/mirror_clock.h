@@ -14,7 +14,8 @@ namespace voxlist {
 ///
 /// The clock gives the rate, the arms of the last 64 turns the phase (passage_fit.h). The arms
 /// alone are always followed too, so that they take over when the clock is lost, and tell when its
-/// rate or direction is wrong. Time that jumps back, or by more than 2 s, starts everything anew.
+/// rate or direction is wrong. Time that jumps back, or by more than 2 s, starts everything anew;
+/// so does a clock that was in step and changes its period: the motor was given another speed.
 class MirrorClock {
  public:
   struct Counts {

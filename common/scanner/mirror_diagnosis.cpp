@@ -34,6 +34,7 @@ std::string how_it_stands(const MirrorEvidence& evidence) {
 }
 
 std::string why_searching(const MirrorEvidence& evidence) {
+  if (evidence.new_rate) return "the motor's speed has changed: waiting for passages of the arms";
   if (const auto gap_rad = evidence.arms.strange_gap_rad()) {
     return text("arms are %.0f deg apart, which the settings say in neither direction",
                 degrees(*gap_rad));

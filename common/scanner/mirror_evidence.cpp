@@ -19,6 +19,7 @@ void MirrorEvidence::start(std::int64_t utime_us) {
   silence.start(utime_us);
   stall.reset();
   slip.reset();
+  new_rate = false;
 }
 
 std::optional<double> MirrorEvidence::rate_radps() const {
@@ -39,6 +40,11 @@ bool MirrorEvidence::clock_in_step() const {
 bool MirrorEvidence::arms_silent() const {
   const std::optional<double> rate = rate_radps();
   return rate && silence.silent(now_us, *rate);
+}
+
+bool MirrorEvidence::arms_silent_in_view() const {
+  const std::optional<double> rate = rate_radps();
+  return rate && silence.silent_in_view(now_us, *rate);
 }
 
 std::optional<std::size_t> MirrorEvidence::missing_arm() const {

@@ -37,6 +37,7 @@ struct MirrorEvidence {
 
   /// See ArmSilence; false and none when the rate is not known.
   bool arms_silent() const;
+  bool arms_silent_in_view() const;
   std::optional<std::size_t> missing_arm() const;
 
   MirrorClockConfig config;
@@ -45,6 +46,7 @@ struct MirrorEvidence {
   ArmSilence silence;
   MirrorStall stall;
   std::optional<Slip> slip;  ///< the last one
+  bool new_rate = false;     ///< the motor's speed has changed, and no arm has confirmed it yet
   std::int64_t now_us = 0;   ///< of the last line
 };
 

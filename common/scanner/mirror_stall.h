@@ -9,7 +9,7 @@
 namespace voxlist {
 
 /// Holds whether the mirror stands: lines are still for longer than a turning mirror leaves them
-/// (StallWatch), or no arm comes and lines do not change either.
+/// (StallWatch), or no arm comes and lines do not change either. Lines that are lost say nothing.
 class MirrorStall {
  public:
   /// Takes the next line, of a mirror that turns at about this rate, if it is known. True when the

@@ -16,9 +16,12 @@ constexpr double kMemory_edges = 500.0;
 // Parts of a period off its place, an edge is not this clock's.
 constexpr double kMaxOff = 0.42;
 
-// Of about the last 64 edges, so many that did not follow the one before by a period: another
-// clock.
-constexpr double kBadnessMemory = 64.0, kMaxBadness = 30.0;
+// Of about the last 24 edges, so many that did not follow the one before by a period: another
+// clock. An edge between two others speaks more for that than one that is missing.
+constexpr double kBadnessMemory = 24.0, kMaxBadness = 18.0, kStrangeBadness = 2.0;
+
+// After so many edges the period is known well enough to hold the next ones against it.
+constexpr double kKnownEdges = 64.0;
 
 // What the median of the first gaps is worth.
 constexpr double kMedianEdges = 4.0;
@@ -60,12 +63,21 @@ void StepClock::learn() {
   for (std::size_t i = 1; i < edges_us.size() && ready(); ++i) follow(edges_us[i]);
 }
 
+bool StepClock::fits_no_longer(double since_us) {
+  if (badness_ > kMaxBadness) return true;
+  return fitted_edges_ >= kKnownEdges && pace_.changed(since_us, period_us_);
+}
+
 void StepClock::follow(double since_us) {
   const double periods = (since_us - fitted_us_) / period_us_;
   const auto steps = std::llround(periods);
   const bool strange = std::abs(periods - static_cast<double>(steps)) > kMaxOff;
-  badness_ += (strange || steps != 1 ? 1.0 : 0.0) - badness_ / kBadnessMemory;
-  if (badness_ > kMaxBadness) return reset();
+  const double bad = strange ? kStrangeBadness : (steps != 1 ? 1.0 : 0.0);
+  badness_ += bad - badness_ / kBadnessMemory;
+  if (fits_no_longer(since_us)) {
+    ++counts_.rate_changes;
+    return reset();
+  }
   if (strange) {
     ++counts_.strange;
   } else if (steps <= 0) {

@@ -4,6 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "scanner/edge_pace.h"
+
 namespace voxlist {
 
 /// Counts the steps of the motor's crystal clock from the times of its edges, as they came through
@@ -19,10 +21,11 @@ class StepClock {
     std::int64_t doubled = 0;  ///< at a time that had its edge already; left out
     std::int64_t strange = 0;  ///< between two edges; left out
     std::int64_t restarts = 0;
+    std::int64_t rate_changes = 0;  ///< restarts because edges no longer fitted the period
   };
 
   /// Takes the next edge. The count starts anew after a gap of over 2 s, a step back in time, or
-  /// when the edges no longer fit the period.
+  /// when the edges no longer fit the period: see EdgePace.
   void add_edge(std::int64_t utime_us);
 
   /// Forgets everything but the counts.
@@ -50,6 +53,7 @@ class StepClock {
 
  private:
   void learn();
+  bool fits_no_longer(double since_us);
   void follow(double since_us);
 
   std::optional<std::int64_t> origin_us_;  // times below are since it
@@ -60,6 +64,7 @@ class StepClock {
   std::int64_t step_ = 0;   // its count
   double fitted_edges_ = 0.0;
   double badness_ = 0.0;
+  EdgePace pace_;
   Counts counts_;
 };
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <random>
 #include <set>
 #include <string>
@@ -44,6 +45,7 @@ struct SimulatedMirror {
         if (scanner.motor().clock_seen(edge_s))
           clock.add_edge(kOrigin_us + std::llround(edge_s * 1e6 + 200.0 * jitter(random)));
       }
+      if (hole && hole(t)) continue;
       LaserLine line = scanner.measure(std::llround(t * 1e6));
       line.utime_us = kOrigin_us + std::llround(t * 1e6 + 300.0 * jitter(random));
       const MirrorState state = clock.add_line(line);
@@ -58,6 +60,7 @@ struct SimulatedMirror {
   MirrorScanner scanner;
   MirrorClock clock{MirrorRun::usual_config()};
   std::mt19937 random{2};
+  std::function<bool(double)> hole;  // no line comes then
 };
 
 TEST(MirrorClockInSimulation, KnowsTheAngleAndRaisesNoAlarmOnATourOfTheBuilding) {
@@ -77,6 +80,16 @@ TEST(MirrorClockInSimulation, KnowsTheAngleAndRaisesNoAlarmOnATourOfTheBuilding)
   EXPECT_GT(lines, 5'000);
   EXPECT_LE(std::sqrt(sum / lines), 0.05);
   EXPECT_TRUE(reasons.empty()) << *reasons.begin();
+}
+
+// Each 1.3 s half a second of lines is lost, so that each part of the mirror's turn is, and many
+// passages of the arms.
+TEST(MirrorClockInSimulation, TakesLostLinesForNoStallOnATourOfTheBuilding) {
+  const Trajectory tour = drive(plan_tour(make_building({}), {}), {});
+  SimulatedMirror mirror({}, tour);
+  mirror.hole = [](double time_s) { return time_s > 10.0 && std::fmod(time_s, 1.3) < 0.5; };
+  mirror.run(tour.duration_s(), [](double, const MirrorState&, double) {});
+  EXPECT_EQ(mirror.clock.counts().stalls, 0);
 }
 
 TEST(MirrorClockInSimulation, ReportsAStallWithinHalfASecond) {

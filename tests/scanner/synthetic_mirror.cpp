@@ -88,8 +88,10 @@ void MirrorRun::until(double end_s, const std::function<void(double, const Mirro
         clock.add_edge(utime(edge_s, 300.0 + mirror.edge_jitter_us * gauss(mirror.random)));
     }
     LaserLine line = mirror.line(line_s);
-    line.utime_us = utime(line_s, mirror.stamp_jitter_us * gauss(mirror.random));
+    const double stamp_off_us = mirror.stamp_off_us ? mirror.stamp_off_us(line_s) : 0.0;
+    line.utime_us = utime(line_s, stamp_off_us + mirror.stamp_jitter_us * gauss(mirror.random));
     if (chance(mirror.random) < mirror.lost_lines) continue;
+    if (mirror.line_lost && mirror.line_lost(line_s)) continue;
     const MirrorState state = clock.add_line(line);
     if (see) see(line_s, state);
   }

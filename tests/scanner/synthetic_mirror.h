@@ -38,7 +38,9 @@ struct SyntheticMirror {
   double dazzled = 0.0;  ///< share of beams without a measurement
   double lost_lines = 0.0, spurious = 0.0;
   double lost_edges = 0.0, doubled_edges = 0.0;
-  std::function<double(double)> standing_s;  ///< for how long the mirror has stood until a time
+  std::function<double(double)> standing_s;    ///< for how long the mirror has stood until a time
+  std::function<bool(double)> line_lost;       ///< lines that never come
+  std::function<double(double)> stamp_off_us;  ///< by how much a line's time stamp is wrong
 
   double clock_period_s() const { return revolution_s / steps_per_revolution; }
 
