@@ -25,11 +25,15 @@ constexpr double kWindowShare = 0.2;
 
 // A heavy-tailed prior on the distance from the prediction: decides between poses that fit alike.
 // Odometry is worth more than a guess from the last step.
-constexpr double kGuessWeight = 0.08, kOdometryWeight = 0.2;
+struct Prior {
+  double weight, scale_m, scale_rad;
+};
+constexpr Prior kGuess{0.08, 0.5, 0.5}, kOdometry{0.2, 0.1, 0.1};
 
-double prior_cost(const Pose2& pose, const Pose2& predicted, double weight) {
-  const double d = distance_m(pose, predicted) / 0.5, turn = turn_rad(pose, predicted) / 0.5;
-  return weight * std::log1p(d * d + turn * turn);
+double prior_cost(const Pose2& pose, const Pose2& predicted, const Prior& prior) {
+  const double d = distance_m(pose, predicted) / prior.scale_m,
+               turn = turn_rad(pose, predicted) / prior.scale_rad;
+  return prior.weight * std::log1p(d * d + turn * turn);
 }
 
 Localisation from_match(const Cloud& cloud, const Match& match) {
@@ -160,7 +164,7 @@ Localisation Localiser::track(const Cloud& cloud, const std::optional<Pose2>& T_
   Localisation result = from_match(cloud, match);
   if (result.modes.empty()) return result;
   std::size_t best = 0;
-  const double prior = track_->T_odom_base && T_odom_base ? kOdometryWeight : kGuessWeight;
+  const Prior& prior = track_->T_odom_base && T_odom_base ? kOdometry : kGuess;
   const auto score = [&](std::size_t i) {
     return match.modes[i].fit - prior_cost(match.modes[i].pose, predicted, prior);
   };

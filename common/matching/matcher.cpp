@@ -132,12 +132,25 @@ class SearchMatcher : public Matcher {
     const SearchResult found = search(*window_map_, scan, window, config);
     Match match = unrefined(found);
     if (found.modes.empty()) return match;
-    match.modes = refined_by_fit(surfels_, fine(points), candidates_of(found, scan.points.size()));
+    std::vector<MatchMode> candidates = candidates_of(found, scan.points.size());
+    candidates.push_back(candidate(window.center, overlap_at(window.center, scan)));
+    match.modes = refined_by_fit(surfels_, fine(points), std::move(candidates));
     const Pyramid& pyramid = window_map_->pyramid();
     match.significance_log10 =
         log10_significance(volume_of(pyramid), pyramid.occupied_cells(), scan.points.size(),
                            found.modes.front().overlap, found.lattice_poses);
     return match;
+  }
+
+  // Share of the points in occupied cells. The prediction itself is refined too: within half a
+  // lattice step it may be nearer to the other face of a thin wall than the lattice's best pose is.
+  double overlap_at(const Pose2& pose, const MatchPoints& scan) const {
+    const Pyramid& pyramid = window_map_->pyramid();
+    const auto hits = std::count_if(scan.points.begin(), scan.points.end(), [&](const auto& p) {
+      const Eigen::Vector3d p_map = pose * p.template cast<double>();
+      return pyramid.level(0).test(voxel_at(p_map, pyramid.resolution_m()));
+    });
+    return static_cast<double>(hits) / static_cast<double>(scan.points.size());
   }
 
   Match match_everywhere(std::span<const Eigen::Vector3f> points) {
