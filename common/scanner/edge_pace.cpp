@@ -11,11 +11,12 @@ namespace {
 constexpr std::size_t kEdges = 24;
 
 // Edges that are together late, or early, by so many periods are of another clock: 3 % over all of
-// them. Jitter of 0.2 ms stays below a sixth of that, also at 2.5 ms.
+// them. Jitter of a twenty-fifth of a period stays far below that.
 constexpr double kMaxLate = 0.72;
 
-// One edge far off does not change the typical one.
-constexpr double kMinTypicalLate = 0.015;
+// One edge far off, or a device's time that is brought to the wall clock anew, does not change the
+// typical one.
+constexpr double kMinTypicalLate = 0.025;
 
 // Parts of a period off its place, an edge is not this clock's; or when half of them are, they are
 // and the clock is another.
@@ -35,7 +36,7 @@ double median(const std::deque<double>& values) {
 bool EdgePace::changed(double since_us, double period_us) {
   const double periods = (since_us - last_us_.value_or(since_us)) / period_us;
   const double late = periods - std::round(periods);
-  if (!is_strange(late)) last_us_ = since_us;
+  last_us_ = since_us;
   late_.push_back(late);
   if (late_.size() > kEdges) late_.pop_front();
   if (late_.size() < kEdges) return false;

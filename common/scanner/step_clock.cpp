@@ -17,11 +17,11 @@ constexpr double kMemory_edges = 500.0;
 constexpr double kMaxOff = 0.42;
 
 // Of about the last 24 edges, so many that did not follow the one before by a period: another
-// clock. An edge between two others speaks more for that than one that is missing.
-constexpr double kBadnessMemory = 24.0, kMaxBadness = 18.0, kStrangeBadness = 2.0;
+// clock.
+constexpr double kBadnessMemory = 24.0, kMaxBadness = 18.0;
 
 // After so many edges the period is known well enough to hold the next ones against it.
-constexpr double kKnownEdges = 64.0;
+constexpr double kKnownEdges = 200.0;
 
 // What the median of the first gaps is worth.
 constexpr double kMedianEdges = 4.0;
@@ -72,7 +72,7 @@ void StepClock::follow(double since_us) {
   const double periods = (since_us - fitted_us_) / period_us_;
   const auto steps = std::llround(periods);
   const bool strange = std::abs(periods - static_cast<double>(steps)) > kMaxOff;
-  const double bad = strange ? kStrangeBadness : (steps != 1 ? 1.0 : 0.0);
+  const double bad = strange || steps != 1 ? 1.0 : 0.0;
   badness_ += bad - badness_ / kBadnessMemory;
   if (fits_no_longer(since_us)) {
     ++counts_.rate_changes;

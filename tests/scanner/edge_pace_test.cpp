@@ -30,7 +30,7 @@ struct Edges {
 };
 
 TEST(EdgePace, TellsAnotherSpeedWithinThirtyEdges) {
-  for (const double factor : {0.5, 0.67, 0.75, 0.9, 0.95, 0.96, 1.04, 1.05, 1.1, 1.33, 1.5}) {
+  for (const double factor : {0.5, 0.67, 0.75, 0.9, 0.94, 0.95, 1.05, 1.06, 1.1, 1.33, 1.5}) {
     EdgePace pace;
     Edges edges;
     ASSERT_EQ(edges.feed(pace, 1000, 5000.0), -1);
@@ -44,8 +44,8 @@ TEST(EdgePace, TellsAnotherSpeedWithinThirtyEdges) {
 TEST(EdgePace, TakesAPoorStreamForNoOtherSpeed) {
   for (const double period_us : {2500.0, 5000.0, 24'000.0}) {
     EdgePace pace;
-    Edges edges{.period_us = period_us, .lost = 0.3, .doubled = 0.1};
-    if (period_us > 2500.0) edges.strange = 0.02;
+    Edges edges{.period_us = period_us, .jitter_us = 0.04 * period_us, .lost = 0.3, .doubled = 0.1};
+    edges.strange = 0.005;
     EXPECT_EQ(edges.feed(pace, 1'000'000, period_us), -1) << period_us;
   }
 }
