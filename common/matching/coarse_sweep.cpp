@@ -36,7 +36,8 @@ std::size_t words_of(Instructions instructions) {
 }  // namespace
 
 Instructions best_instructions() {
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl"))
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+      __builtin_cpu_supports("avx512bw"))
     return Instructions::kAvx512;
   if (__builtin_cpu_supports("avx2")) return Instructions::kAvx2;
   return Instructions::kPortable;

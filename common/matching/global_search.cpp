@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <optional>
+#include <stdexcept>
 #include <tuple>
 
 #include "matching/bit_counters.h"
@@ -26,12 +26,11 @@ struct Node {
 };
 
 struct LatticePose {
-  int overlap = 0;
-  std::int32_t angle = 0, x = 0, y = 0;  // cells of the map
+  int overlap;
+  std::int32_t angle, x, y;  // cells of the map
 };
 
-// The largest counter, and the first lane that has it.
-std::pair<int, int> largest(const WindowCounters& counters) {
+int largest(const WindowCounters& counters) {
   std::uint64_t lanes = ~std::uint64_t{0};
   int value = 0;
   for (std::size_t p = kCountPlanes; p-- > 0;) {
@@ -40,7 +39,7 @@ std::pair<int, int> largest(const WindowCounters& counters) {
       value |= 1 << p;
     }
   }
-  return {value, std::countr_zero(lanes)};
+  return value;
 }
 
 // Lanes of a word of counters that are at least `least`: compared from the highest digit down.
@@ -104,7 +103,7 @@ class Bounds {
     int best = 0;
     for (std::size_t group = 0; group < counts_.size(); ++group)
       for (std::size_t word = 0; word < counts_[group].words; ++word)
-        best = std::max(best, largest(counters_at(group, word)).first);
+        best = std::max(best, largest(counters_at(group, word)));
     return best;
   }
 
@@ -126,22 +125,21 @@ class PoseCounter {
  public:
   PoseCounter(const TolerantMap& map, const TurnedPoints& points) : map_(map), points_(points) {}
 
-  // The best pose of a node, if any has at least `least`.
-  std::optional<LatticePose> best_of(const Node& node, int least) const {
-    std::optional<LatticePose> best;
+  // Calls visit(LatticePose) for the poses of a node that have at least `least`.
+  template <class Visit>
+  void poses_from(const Node& node, int least, const Visit& visit) const {
+    const std::int32_t x = node.x * kFactor, y = node.y * kFactor;
     for (std::int32_t angle = node.group * kGroup; angle < (node.group + 1) * kGroup; ++angle) {
-      const std::int32_t x = node.x * kFactor, y = node.y * kFactor;
-      const auto [count, lane] = best_of_window(angle, x, y, least);
-      if (count < least) continue;
-      best = LatticePose{count, angle, x + lane / kFactor, y + lane % kFactor};
-      least = count + 1;
+      const WindowCounters counters = count_window(angle, x, y, least);
+      for (std::uint64_t lanes = lanes_from(counters, least); lanes != 0; lanes &= lanes - 1) {
+        const int lane = std::countr_zero(lanes);
+        visit(LatticePose{count_of(counters, lane), angle, x + lane / kFactor, y + lane % kFactor});
+      }
     }
-    return best;
   }
 
  private:
-  std::pair<int, int> best_of_window(std::int32_t angle, std::int32_t x, std::int32_t y,
-                                     int least) const {
+  WindowCounters count_window(std::int32_t angle, std::int32_t x, std::int32_t y, int least) const {
     if (!points_.inside(angle, x, y))
       return count(least, [&](std::size_t i) { return points_.window(angle, i, x, y); });
     const std::int32_t* places = points_.places(angle);
@@ -151,7 +149,7 @@ class PoseCounter {
 
   // Stops early, below `least`, when no pose can reach it any more.
   template <class Window>
-  std::pair<int, int> count(int least, const Window& window) const {
+  WindowCounters count(int least, const Window& window) const {
     constexpr std::size_t kCheckEvery = 128;
     WindowCounters counters;
     const std::size_t n = points_.size();
@@ -162,60 +160,80 @@ class PoseCounter {
         for (std::size_t k = 0; k < 8; ++k) words[k] = i + k < end ? window(i + k) : 0;
         counters.add8(words);
       }
-      const auto so_far = largest(counters);
-      if (end == n || so_far.first + static_cast<int>(n - end) < least) return so_far;
+      if (largest(counters) + static_cast<int>(n - end) < least) return {};
     }
-    return {0, 0};
+    return counters;
   }
 
   const TolerantMap& map_;
   const TurnedPoints& points_;
 };
 
-// The best distinct modes so far.
+// The modes of the poses so far: the best pose, then the best one that is distinct from it, and so
+// on.
 class Modes {
  public:
   explicit Modes(const SearchConfig& config) : config_(config) {}
 
   // What a pose must have to matter.
-  int least() const {
-    if (modes_.empty()) return 1;
-    const auto share = static_cast<int>(std::ceil(config_.mode_ratio * modes_.front().overlap));
-    return std::max({1, share, full() ? modes_.back().overlap + 1 : 0});
-  }
+  int least() const { return std::max({1, floor(), full() ? modes_.back().overlap + 1 : 0}); }
 
-  void add(const OverlapMode& mode) {
-    const auto same = [&](const OverlapMode& other) {
-      return distance_m(mode.pose, other.pose) < config_.mode_distance_m &&
-             turn_rad(mode.pose, other.pose) < config_.mode_turn_rad;
-    };
-    if (std::any_of(modes_.begin(), modes_.end(), [&](const OverlapMode& other) {
-          return other.overlap >= mode.overlap && same(other);
-        }))
-      return;
-    std::erase_if(modes_, same);
-    const auto behind = std::find_if(modes_.begin(), modes_.end(), [&](const OverlapMode& other) {
-      return other.overlap < mode.overlap;
-    });
-    modes_.insert(behind, mode);
-    if (modes_.size() > config_.max_modes) modes_.resize(config_.max_modes);
+  void add(const OverlapMode& pose) {
+    if (pose.overlap < least()) return;
+    poses_.push_back(pose);
+    if (!hidden(pose)) choose();
   }
 
   int best() const { return modes_.empty() ? 0 : modes_.front().overlap; }
 
   // Best first; none with less than mode_ratio of the best.
-  std::vector<OverlapMode> take() {
-    const double floor = config_.mode_ratio * best();
-    std::erase_if(modes_, [&](const OverlapMode& mode) { return mode.overlap < floor; });
-    return std::move(modes_);
-  }
+  const std::vector<OverlapMode>& modes() const { return modes_; }
 
  private:
+  int floor() const { return static_cast<int>(std::ceil(config_.mode_ratio * best())); }
   bool full() const { return modes_.size() >= config_.max_modes; }
 
+  // By a mode that is as good.
+  bool hidden(const OverlapMode& pose) const {
+    return std::any_of(modes_.begin(), modes_.end(), [&](const OverlapMode& mode) {
+      return mode.overlap >= pose.overlap &&
+             distance_m(mode.pose, pose.pose) < config_.mode_distance_m &&
+             turn_rad(mode.pose, pose.pose) < config_.mode_turn_rad;
+    });
+  }
+
+  // From all poses: the modes that a new one hides may have hidden others.
+  void choose() {
+    std::stable_sort(poses_.begin(), poses_.end(),
+                     [](const auto& a, const auto& b) { return a.overlap > b.overlap; });
+    modes_.assign(1, poses_.front());
+    std::erase_if(poses_, [&](const OverlapMode& pose) { return pose.overlap < floor(); });
+    for (const OverlapMode& pose : poses_)
+      if (!full() && !hidden(pose)) modes_.push_back(pose);
+  }
+
   const SearchConfig& config_;
-  std::vector<OverlapMode> modes_;  // by falling overlap
+  std::vector<OverlapMode> poses_, modes_;
 };
+
+// Whether a search can count the point: false for what is not finite, too.
+bool within_reach(const CoarseMap& map, const Eigen::Vector3f& p) {
+  return in_lattice(p, kFinestResolution_m) &&
+         std::hypot(double(p.x()), double(p.y())) <= map.reach_m();
+}
+
+// The numbers below n in an order of which any first part is spread evenly, so that hopeless poses
+// are given up early: by their fractions of the golden ratio.
+std::vector<std::size_t> golden_order(std::size_t n) {
+  constexpr double kGolden = 0.6180339887498949;
+  std::vector<std::pair<double, std::size_t>> order;
+  for (std::size_t i = 0; i < n; ++i)
+    order.emplace_back(std::fmod(static_cast<double>(i) * kGolden, 1.0), i);
+  std::sort(order.begin(), order.end());
+  std::vector<std::size_t> numbers;
+  for (const auto& [fraction, number] : order) numbers.push_back(number);
+  return numbers;
+}
 
 }  // namespace
 
@@ -235,25 +253,23 @@ std::vector<Eigen::Vector3f> GlobalMap::choose_points(std::span<const Eigen::Vec
   constexpr double kFewestKept = 0.05;  // of the points; fewer tell nothing, so that all are kept
   std::vector<Eigen::Vector3f> near, telling;
   for (const auto& p : scan) {
-    if (std::hypot(double(p.x()), double(p.y())) > coarse_.reach_m()) continue;
+    if (!within_reach(coarse_, p)) continue;
     near.push_back(p);
     if (tolerant_.fill(tolerant_.layer(double(p.z()))) < kFull) telling.push_back(p);
   }
   if (double(telling.size()) < kFewestKept * double(near.size())) telling = std::move(near);
-  // By the golden ratio: any first part of the points is spread evenly too, so that hopeless poses
-  // are given up early.
-  constexpr double kGolden = 0.6180339887498949;
   std::vector<Eigen::Vector3f> chosen;
-  const std::size_t n = std::min(most, telling.size());
-  for (std::size_t i = 0; i < n; ++i) {
-    const double share = std::fmod(static_cast<double>(i) * kGolden, 1.0);
-    chosen.push_back(telling[static_cast<std::size_t>(share * double(telling.size()))]);
-  }
+  const std::size_t n = std::min({most, kMostSearchPoints, telling.size()});
+  for (const std::size_t i : golden_order(n)) chosen.push_back(telling[i * telling.size() / n]);
   return chosen;
 }
 
 SearchResult global_search(const GlobalMap& map, std::span<const Eigen::Vector3f> points,
                            const SearchConfig& config, Instructions instructions) {
+  if (points.size() > kMostSearchPoints ||
+      !std::all_of(points.begin(), points.end(),
+                   [&](const auto& p) { return within_reach(map.coarse(), p); }))
+    throw std::invalid_argument("global_search: too many points, or one beyond the map's reach");
   SearchResult result;
   const TolerantMap& tolerant = map.tolerant();
   TurnedPoints turned(tolerant, points);
@@ -268,8 +284,9 @@ SearchResult global_search(const GlobalMap& map, std::span<const Eigen::Vector3f
   };
   Modes modes(config);
   const auto look_at = [&](const Node& node) {
-    if (const auto best = counter.best_of(node, modes.least()))
-      modes.add({pose_of(*best), best->overlap});
+    counter.poses_from(node, modes.least(), [&](const LatticePose& pose) {
+      modes.add({pose_of(pose), pose.overlap});
+    });
   };
 
   // A first answer tells which of the other nodes can matter.
@@ -297,7 +314,7 @@ SearchResult global_search(const GlobalMap& map, std::span<const Eigen::Vector3f
   const double all_nodes = double(map.coarse().size_x()) * map.coarse().size_y() * turned.groups();
   result.lattice_poses = all_nodes * poses_in_node;
   result.poses_examined = static_cast<std::int64_t>(all_nodes + double(nodes) * poses_in_node);
-  result.modes = modes.take();
+  result.modes = modes.modes();
   return result;
 }
 

@@ -10,6 +10,9 @@
 
 namespace voxlist {
 
+/// Most points that a search counts.
+inline constexpr std::size_t kMostSearchPoints = (std::size_t{1} << kCountPlanes) - 1;
+
 /// A map made ready for searching all of it: rebuild it after the map has changed. Reading from
 /// several threads is safe.
 class GlobalMap {
@@ -22,7 +25,8 @@ class GlobalMap {
   const CoarseMap& coarse() const { return coarse_; }
 
   /// The points of a scan (base, m) that tell poses apart: within reach, and not in layers that the
-  /// map fills (floor, ceiling). At most `most`, spread evenly over the scan.
+  /// map fills (floor, ceiling) unless nothing else is there. At most `most` and kMostSearchPoints,
+  /// spread evenly over the scan, and so is any first part of them.
   std::vector<Eigen::Vector3f> choose_points(std::span<const Eigen::Vector3f> scan,
                                              std::size_t most) const;
 
@@ -37,7 +41,9 @@ class GlobalMap {
 /// Nodes of 8 x 8 translations at 8 angles are bounded all at once, by a bit-sliced sweep over the
 /// coarse map; then they are searched pose by pose, the most promising first, as long as their
 /// bounds can matter. Exact and deterministic: the same bits with any number of threads and any
-/// instructions. config.max_nodes bounds the nodes that are searched pose by pose.
+/// instructions. config.max_nodes bounds the nodes that are searched pose by pose after a first
+/// few. Throws std::invalid_argument for more than kMostSearchPoints or a point beyond the map's
+/// reach: GlobalMap::choose_points gives neither.
 SearchResult global_search(const GlobalMap& map, std::span<const Eigen::Vector3f> points,
                            const SearchConfig& config,
                            Instructions instructions = best_instructions());

@@ -36,8 +36,9 @@ std::int32_t voxels_in_cell(const VoxelMap& map, double cell_m) {
 
 TolerantMap::TolerantMap(const VoxelMap& map, double cell_m) : cell_m_(cell_m) {
   if (map.empty()) return;
-  constexpr std::int64_t kMost = std::numeric_limits<std::int32_t>::max() - kWindow;
-  for (measure(map, cell_m_); place(0, 0, size_z_) > kMost; cell_m_ *= 2.0)
+  constexpr std::int32_t kMost = std::numeric_limits<std::int32_t>::max() - kWindow;
+  // In double: a map that stretches over the whole lattice has more cells than 64 bits count.
+  for (measure(map, cell_m_); double(size_x_) * size_y_ * size_z_ > kMost; cell_m_ *= 2.0)
     measure(map, 2.0 * cell_m_);
   columns_.assign(static_cast<std::size_t>(place(0, 0, size_z_)) + kWindow, 0);
   mark_cells(map);

@@ -1,0 +1,119 @@
+#include "matching/tolerant_map.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <set>
+
+namespace voxlist {
+namespace {
+
+// The cells of a tolerant map by its header's words, counted from the world's origin.
+std::set<Voxel> tolerant_cells(const VoxelMap& map, std::int32_t factor) {
+  std::set<Voxel> cells;
+  map.for_each_voxel([&](const Voxel& v) {
+    const Voxel c{floor_div(v.x, factor), floor_div(v.y, factor), floor_div(v.z, factor)};
+    for (const Voxel& d : {Voxel{0, 0, 0}, Voxel{1, 0, 0}, Voxel{-1, 0, 0}, Voxel{0, 1, 0},
+                           Voxel{0, -1, 0}, Voxel{0, 0, 1}, Voxel{0, 0, -1}})
+      cells.insert({c.x + d.x, c.y + d.y, floor_div(c.z + d.z, 2)});
+  });
+  return cells;
+}
+
+bool occupied(const TolerantMap& map, const Voxel& cell) {
+  const Voxel& low = map.lowest();
+  return map.window_anywhere(cell.x - low.x, cell.y - low.y, cell.z - low.z) & 1;
+}
+
+VoxelMap random_map(unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_int_distribution<std::int32_t> place(-30, 30), height(-9, 9);
+  VoxelMap map;
+  for (int i = 0; i < 60; ++i) map.insert({place(random), place(random), height(random)});
+  return map;
+}
+
+TEST(TolerantMap, GrowsByFacesOnlyInLayersTwiceAsHigh) {
+  VoxelMap voxel;
+  voxel.insert({-3, 5, -1});  // cell (-2, 2, -1) of 0.04 m: the upper half of layer -1
+  const TolerantMap map(voxel, 0.04);
+  EXPECT_DOUBLE_EQ(map.layer_m(), 0.08);
+  const std::set<Voxel> expected{{-2, 2, -1}, {-2, 2, 0},  {-3, 2, -1},
+                                 {-1, 2, -1}, {-2, 1, -1}, {-2, 3, -1}};
+  EXPECT_EQ(tolerant_cells(voxel, 2), expected);
+  for (std::int32_t x = -12; x < 12; ++x)
+    for (std::int32_t y = -12; y < 12; ++y)
+      for (std::int32_t z = -4; z < 4; ++z)
+        ASSERT_EQ(occupied(map, {x, y, z}), expected.contains({x, y, z}))
+            << x << ' ' << y << ' ' << z;
+  EXPECT_EQ(map.occupied_cells(), 6);
+}
+
+TEST(TolerantMap, HoldsTheCellsThatItsHeaderSays) {
+  for (const std::int32_t factor : {1, 2, 3, 4}) {
+    const VoxelMap voxels = random_map(static_cast<unsigned>(factor));
+    const TolerantMap map(voxels, 0.02 * factor);
+    const std::set<Voxel> expected = tolerant_cells(voxels, factor);
+    EXPECT_EQ(map.occupied_cells(), static_cast<std::int64_t>(expected.size()));
+    for (const Voxel& cell : expected)
+      ASSERT_TRUE(occupied(map, cell))
+          << factor << ": " << cell.x << ' ' << cell.y << ' ' << cell.z;
+  }
+}
+
+TEST(TolerantMap, WindowsTellTheirCellsAndNothingOutside) {
+  const VoxelMap voxels = random_map(7);
+  const TolerantMap map(voxels, 0.04);
+  const std::set<Voxel> cells = tolerant_cells(voxels, 2);
+  int held = 0;
+  for (std::int32_t z = -2; z < map.size_z() + 2; ++z)
+    for (std::int32_t x = -10; x < map.size_x() + 10; ++x)
+      for (std::int32_t y = -10; y < map.size_y() + 10; ++y) {
+        std::uint64_t expected = 0;
+        for (std::int32_t i = 0; i < 8; ++i)
+          for (std::int32_t k = 0; k < 8; ++k) {
+            const Voxel cell{x + i + map.lowest().x, y + k + map.lowest().y, z + map.lowest().z};
+            expected |= std::uint64_t{cells.contains(cell)} << (8 * i + k);
+          }
+        ASSERT_EQ(map.window_anywhere(x, y, z), expected) << x << ' ' << y << ' ' << z;
+        if (z < 0 || z >= map.size_z() || !map.holds(x, y)) continue;
+        ASSERT_EQ(map.window(map.place(x, y, z)), expected) << x << ' ' << y << ' ' << z;
+        ++held;
+      }
+  EXPECT_GT(held, 1000);
+}
+
+TEST(TolerantMap, FindsTheLayerOfAHeight) {
+  const VoxelMap voxels = random_map(8);
+  const TolerantMap map(voxels, 0.04);
+  EXPECT_EQ(map.layer(0.0), -map.lowest().z);
+  EXPECT_EQ(map.layer(-0.001), -map.lowest().z - 1);
+  EXPECT_EQ(map.layer(0.081), -map.lowest().z + 1);
+  EXPECT_LT(map.layer(-9.0), 0);
+  EXPECT_GE(map.layer(9.0), map.size_z());
+}
+
+TEST(TolerantMap, FillTellsFloorsFromWalls) {
+  VoxelMap room;
+  for (std::int32_t x = 0; x < 100; ++x)
+    for (std::int32_t y = 0; y < 100; ++y) {
+      room.insert({x, y, 1});  // floor in the middle of layer 0
+      if (x == 50)
+        for (std::int32_t z = 1; z < 60; ++z) room.insert({x, y, z});
+    }
+  const TolerantMap map(room, 0.04);
+  EXPECT_DOUBLE_EQ(map.fill(map.layer(0.03)), 1.0);
+  EXPECT_NEAR(map.fill(map.layer(0.5)), 3.0 / 50.0, 0.01);
+  EXPECT_EQ(map.fill(-1), 0.0);
+  EXPECT_EQ(map.fill(map.size_z()), 0.0);
+}
+
+TEST(TolerantMap, IsEmptyForAnEmptyMap) {
+  const TolerantMap map(VoxelMap(), 0.04);
+  EXPECT_TRUE(map.empty());
+  EXPECT_EQ(map.occupied_cells(), 0);
+  EXPECT_EQ(map.window_anywhere(0, 0, 0), 0u);
+}
+
+}  // namespace
+}  // namespace voxlist
