@@ -10,7 +10,7 @@ namespace {
 constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 
 // Global: what is needed to call a pose sure, beside having no rival.
-constexpr double kSureOverlap = 0.6;
+constexpr double kSureOverlap = 0.75;
 // Global: below this nothing fits.
 constexpr double kLostOverlap = 0.4;
 // Tracking: the pose is lost below this overlap, or below this share of the last fit.
