@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t kEdges = 24;
 
 // Edges that are together late, or early, by so many periods are of another clock: 3 % over all of
-// them. Jitter of a twenty-fifth of a period stays far below that.
+// them. Jitter counts only at both ends: that of a tenth of a period stays far below.
 constexpr double kMaxLate = 0.72;
 
 // One edge far off, or a device's time that is brought to the wall clock anew, does not change the
@@ -34,9 +34,16 @@ double median(const std::deque<double>& values) {
 }  // namespace
 
 bool EdgePace::changed(double since_us, double period_us) {
-  const double periods = (since_us - last_us_.value_or(since_us)) / period_us;
-  const double late = periods - std::round(periods);
+  const auto late_after = [&](const std::optional<double>& edge_us) {
+    const double periods = (since_us - edge_us.value_or(since_us)) / period_us;
+    return periods - std::round(periods);
+  };
+  // Past a strange edge against the last good one: jitter is then summed up at both ends only.
+  // Against the strange one where that fits better: time was shifted.
+  const double late_good = late_after(last_good_us_);
+  const double late = is_strange(late_good) ? late_after(last_us_) : late_good;
   last_us_ = since_us;
+  if (!is_strange(late)) last_good_us_ = since_us;
   late_.push_back(late);
   if (late_.size() > kEdges) late_.pop_front();
   if (late_.size() < kEdges) return false;

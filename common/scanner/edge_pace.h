@@ -19,8 +19,8 @@ class EdgePace {
   void reset() { *this = {}; }
 
  private:
-  std::optional<double> last_us_;
-  std::deque<double> late_;  // each edge against the one before it, in periods
+  std::optional<double> last_us_, last_good_us_;
+  std::deque<double> late_;  // each edge against one before it, in periods
 };
 
 }  // namespace voxlist
