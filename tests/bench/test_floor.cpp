@@ -1,7 +1,7 @@
+#include "bench/test_floor.h"
+
 #include <cmath>
 #include <numbers>
-
-#include "bench/test_floor.h"
 
 namespace voxlist {
 namespace {
@@ -33,15 +33,6 @@ TestFloorConfig floor_60_40(int seed) {
   config.wing.length_m = 60.0;
   config.wing.depth_m = 13.2;
   config.wing.rooms = 20;
-  config.wing.seed = 1000 * seed;
-  return config;
-}
-
-TestFloorConfig floor_200_150(int seed) {
-  TestFloorConfig config{"200 x 150 m, seed " + std::to_string(seed), {}, 10, 1.0};
-  config.wing.length_m = 200.0;
-  config.wing.depth_m = 14.9;
-  config.wing.rooms = 60;
   config.wing.seed = 1000 * seed;
   return config;
 }

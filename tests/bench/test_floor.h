@@ -30,8 +30,6 @@ struct TestFloorConfig {
 
 /// 60 x 40 m: three wings of 60 x 13.3 m. Seeds are the building's.
 TestFloorConfig floor_60_40(int seed);
-/// 200 x 150 m: ten wings of 200 x 15 m.
-TestFloorConfig floor_200_150(int seed);
 
 /// Builds the floor and its map: a scan in each square, where there is room for the robot.
 TestFloor make_test_floor(const TestFloorConfig& config);

@@ -44,8 +44,8 @@ TEST(EdgePace, TellsAnotherSpeedWithinThirtyEdges) {
 TEST(EdgePace, TakesAPoorStreamForNoOtherSpeed) {
   for (const double period_us : {2500.0, 5000.0, 24'000.0}) {
     EdgePace pace;
-    Edges edges{.period_us = period_us, .jitter_us = 0.04 * period_us, .lost = 0.3, .doubled = 0.1};
-    edges.strange = 0.005;
+    Edges edges{.period_us = period_us, .jitter_us = 0.06 * period_us, .lost = 0.3, .doubled = 0.1};
+    edges.strange = 0.02;
     EXPECT_EQ(edges.feed(pace, 1'000'000, period_us), -1) << period_us;
   }
 }
