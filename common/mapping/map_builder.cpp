@@ -1,7 +1,6 @@
 #include "mapping/map_builder.h"
 
 #include <numbers>
-#include <set>
 
 namespace voxlist {
 
@@ -13,17 +12,7 @@ bool MapBuilder::wants(const Pose2& pose) const {
 }
 
 void MapBuilder::add(Keyframe keyframe) {
-  std::set<Voxel> changed;
-  const auto& points = keyframe.cloud.points;
-  const auto max_range = static_cast<float>(config_.max_range_m);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if ((points[i] - keyframe.cloud.origin(i)).norm() > max_range) continue;
-    const Eigen::Vector3d p = keyframe.T_map_base * points[i].cast<double>();
-    if (!in_lattice(p, map_.resolution_m())) continue;
-    const Voxel voxel = voxel_at(p, map_.resolution_m());
-    if (map_.insert(voxel)) changed.insert(block_of(voxel));
-  }
-  changed_blocks_.assign(changed.begin(), changed.end());
+  changed_blocks_ = add_scan(keyframe.cloud, keyframe.T_map_base, config_.max_range_m, map_);
   keyframes_.push_back(std::move(keyframe));
 }
 

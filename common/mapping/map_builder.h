@@ -4,7 +4,7 @@
 
 #include "geometry/cloud.h"
 #include "geometry/pose.h"
-#include "voxels/voxel_map.h"
+#include "voxels/occupancy_map.h"
 
 namespace voxlist {
 
@@ -31,8 +31,8 @@ struct MapBuilderConfig {
   }
 };
 
-/// Builds the voxel map from clouds whose pose is known. Keyframes are the truth, the voxel map is
-/// a view of them.
+/// Builds the map of what is occupied and what rays passed from clouds whose pose is known.
+/// Keyframes are the truth, the map is a view of them.
 class MapBuilder {
  public:
   explicit MapBuilder(const MapBuilderConfig& config = {}) : config_(config) {}
@@ -44,17 +44,17 @@ class MapBuilder {
   /// Puts a keyframe into the map, whatever wants() says.
   void add(Keyframe keyframe);
 
-  const VoxelMap& map() const { return map_; }
+  const OccupancyMap& map() const { return map_; }
   const std::vector<Keyframe>& keyframes() const { return keyframes_; }
 
-  /// Positions (block coordinates) of the blocks that the last add() changed, each once, ascending.
-  const std::vector<Voxel>& changed_blocks() const { return changed_blocks_; }
+  /// What the last add() changed.
+  const ChangedBlocks& changed_blocks() const { return changed_blocks_; }
 
  private:
   const MapBuilderConfig config_;
-  VoxelMap map_;
+  OccupancyMap map_;
   std::vector<Keyframe> keyframes_;
-  std::vector<Voxel> changed_blocks_;
+  ChangedBlocks changed_blocks_;
 };
 
 }  // namespace voxlist

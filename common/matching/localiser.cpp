@@ -92,7 +92,7 @@ struct Localiser::Track {
   }
 };
 
-Localiser::Localiser(const VoxelMap& map, const LocaliserConfig& config)
+Localiser::Localiser(const OccupancyMap& map, const LocaliserConfig& config)
     : map_(map), config_(config) {
   if (map_.empty())
     make_matcher(map_,
@@ -146,15 +146,14 @@ Localisation Localiser::track(const Cloud& cloud, const std::optional<Pose2>& T_
                turned_rad = turn_rad(predicted, track_->pose);
   const double half_m = kWindow_m + kWindowShare * moved_m;
   Match match = matcher().match(
-      cloud.points, PoseWindow{predicted, half_m, half_m, kWindow_rad + kWindowShare * turned_rad});
+      cloud, PoseWindow{predicted, half_m, half_m, kWindow_rad + kWindowShare * turned_rad});
   const auto best_fit = [](const Match& m) { return m.modes.empty() ? 0.0 : m.modes.front().fit; };
   if (track_->fit == 0.0 || best_fit(match) < kDoubtfulFitShare * track_->fit) {
     const double dt_s =
         std::clamp(static_cast<double>(cloud.utime_us - track_->utime_us) * 1e-6, 0.1, 3.0);
     const double reach_m = half_m + config_.max_speed_mps * dt_s;
     const double reach_rad = kWindow_rad + config_.max_turn_rate_dps * kRadiansPerDegree * dt_s;
-    const Match wide =
-        matcher().match(cloud.points, PoseWindow{predicted, reach_m, reach_m, reach_rad});
+    const Match wide = matcher().match(cloud, PoseWindow{predicted, reach_m, reach_m, reach_rad});
     match.modes.insert(match.modes.end(), wide.modes.begin(), wide.modes.end());
     match.certified = match.certified && wide.certified;
     match.complete = match.complete && wide.complete;
@@ -181,7 +180,7 @@ Localisation Localiser::track(const Cloud& cloud, const std::optional<Pose2>& T_
 }
 
 Localisation Localiser::locate(const Cloud& cloud, double& fit) {
-  const Match match = matcher().match(cloud.points, std::nullopt);
+  const Match match = matcher().match(cloud, std::nullopt);
   Localisation result = from_match(cloud, match);
   result.global = true;
   if (result.modes.empty() || match.modes.front().overlap < kLostOverlap) return result;

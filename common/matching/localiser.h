@@ -6,7 +6,7 @@
 #include "geometry/cloud.h"
 #include "matching/localisation.h"
 #include "matching/matcher.h"
-#include "voxels/voxel_map.h"
+#include "voxels/occupancy_map.h"
 
 namespace voxlist {
 
@@ -30,10 +30,10 @@ struct LocaliserConfig {
 class Localiser {
  public:
   /// The map must outlive the localiser; call map_changed() after each change of it.
-  Localiser(const VoxelMap& map, const LocaliserConfig& config = {});
+  Localiser(const OccupancyMap& map, const LocaliserConfig& config = {});
   ~Localiser();
 
-  /// The map has other voxels now. The next cloud pays for making it ready (tens of milliseconds).
+  /// The map is another one now. The next cloud pays for making it ready (tens of milliseconds).
   void map_changed();
 
   /// Locates a cloud (in base). `T_odom_base`: odometry's pose at the cloud's time, if there is
@@ -56,7 +56,7 @@ class Localiser {
   void remember(const Cloud& cloud, const std::optional<Pose2>& T_odom_base, const Pose2& pose,
                 double fit);
 
-  const VoxelMap& map_;
+  const OccupancyMap& map_;
   const LocaliserConfig config_;
   std::unique_ptr<Matcher> matcher_;
   std::unique_ptr<Track> track_;

@@ -3,13 +3,12 @@
 #include <Eigen/Core>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
-#include "matching/match_points.h"
-#include "matching/refine.h"
+#include "geometry/cloud.h"
 #include "matching/search.h"
+#include "voxels/occupancy_map.h"
 
 namespace voxlist {
 
@@ -81,15 +80,13 @@ class Matcher {
  public:
   virtual ~Matcher() = default;
 
-  /// The modes of the scan's pose within the window, or in the whole map without one. Points in
-  /// base (m).
-  virtual Match match(std::span<const Eigen::Vector3f> points,
-                      const std::optional<PoseWindow>& window) = 0;
+  /// The modes of the pose of a scan (in base) within the window, or in the whole map without one.
+  virtual Match match(const Cloud& scan, const std::optional<PoseWindow>& window) = 0;
 };
 
 /// Makes the map ready for matching, each part when it is first needed. The map must outlive the
 /// matcher and stay as it is; use the matcher from one thread. Throws std::invalid_argument on an
 /// unknown engine.
-std::unique_ptr<Matcher> make_matcher(const VoxelMap& map, const MatcherConfig& config);
+std::unique_ptr<Matcher> make_matcher(const OccupancyMap& map, const MatcherConfig& config);
 
 }  // namespace voxlist

@@ -63,7 +63,7 @@ class LocaliserService {
   Bus& bus_;
   Health& health_;
   const LocaliserServiceConfig config_;
-  VoxelMap map_;
+  OccupancyMap map_;
   Localiser localiser_;
   MapAssembler assembler_;
   OdometryBuffer odometry_;

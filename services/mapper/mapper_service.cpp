@@ -127,11 +127,11 @@ void MapperService::send_change(std::int64_t base_version) {
   change.map_id = map_id_;
   change.version = version();
   change.base_version = base_version;
-  change.resolution_m = builder_.map().resolution_m();
+  change.resolution_m = builder_.map().occupied.resolution_m();
   if (base_version == kWholeMap) {
-    change.blocks = to_messages(builder_.map());
+    change.blocks = to_messages(builder_.map().occupied);
   } else if (base_version != version()) {
-    change.blocks = to_messages(builder_.map(), builder_.changed_blocks());
+    change.blocks = to_messages(builder_.map().occupied, builder_.changed_blocks().occupied);
   }
   const bool whole = change.is_whole();
   auto messages = split_map(std::move(change));
@@ -210,7 +210,7 @@ void MapperService::save() {
   store_keyframes();
   sync();
   try {
-    write_map_views(config_.folder, builder_.map(), trajectory_);
+    write_map_views(config_.folder, builder_.map().occupied, trajectory_);
     health_.count("saved");
   } catch (const FileError& error) {
     health_.count("save_failed");

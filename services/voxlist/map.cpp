@@ -83,8 +83,8 @@ void tell(const MapOptions& options, const MapRun& run, const RunFigures& figure
               std::to_string(run.ambiguous()) + " ambiguous, " +
               std::to_string(figures.without_pose) + " without a pose), " +
               std::to_string(run.builder().keyframes().size()) + " keyframes, " +
-              std::to_string(run.builder().map().size()) + " voxels, hash " +
-              hash_text(run.builder().map()));
+              std::to_string(run.builder().map().occupied.size()) + " voxels, hash " +
+              hash_text(run.builder().map().occupied));
   console.say(fixed(figures.seconds, 1) + " s of data in " + fixed(figures.elapsed_seconds, 1) +
               " s, " + fixed(factor, 1) + " times real time");
   console.say((options.folder / "map.png").string());

@@ -34,7 +34,7 @@ MapFiles::MapFiles(fs::path folder)
     : folder_(made(std::move(folder))), summary_(folder_ / "summary.json") {}
 
 void MapFiles::write_map(const MapRun& run) const {
-  const VoxelMap& map = run.builder().map();
+  const VoxelMap& map = run.builder().map().occupied;
   write_map_views(folder_, map, run.trajectory());
   const MapStore stored(folder_, map_id(map), run.builder().keyframes());
 }
@@ -59,7 +59,7 @@ bool MapFiles::write_octomap(const MapBuilder& builder, const OctomapConfig& con
 }
 
 void MapFiles::write_summary(const MapRun& run, const RunFigures& figures) {
-  const VoxelMap& map = run.builder().map();
+  const VoxelMap& map = run.builder().map().occupied;
   const double factor =
       figures.elapsed_seconds > 0.0 ? figures.seconds / figures.elapsed_seconds : 0.0;
   nlohmann::ordered_json json = {

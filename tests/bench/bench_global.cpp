@@ -83,7 +83,7 @@ void run(const std::string& name, const TestFloor& floor, Matcher& matcher, cons
     const auto seed = static_cast<std::uint64_t>(1'000'000 + tally.queries);
     const Cloud scan = scan_at(now, truth, people, seed);
     const double start_ms = cpu_ms();
-    const Match match = matcher.match(scan.points, std::nullopt);
+    const Match match = matcher.match(scan, std::nullopt);
     tally.add(match, truth, foreign, cpu_ms() - start_ms);
     if (listed) list(match, truth);
   }
@@ -94,9 +94,9 @@ void run_floor(const TestFloorConfig& config, int queries, bool listed) {
   const TestFloor floor = make_test_floor(config);
   const auto matcher = make_matcher(floor.map, {});
   const double start_ms = cpu_ms();
-  matcher->match(scan_at(floor.building, {}, 0, 1).points, std::nullopt);
+  matcher->match(scan_at(floor.building, {}, 0, 1), std::nullopt);
   std::printf("%s: %zu voxels, first query with preparation %.0f ms\n", floor.name.c_str(),
-              floor.map.size(), cpu_ms() - start_ms);
+              floor.map.occupied.size(), cpu_ms() - start_ms);
   TestFloorConfig changed = config, foreign = config;
   changed.wing.changed = 7;
   foreign.wing.seed += 500;

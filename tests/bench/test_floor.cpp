@@ -19,13 +19,6 @@ Pose2 pose_in(const Eigen::Vector2d& low, const Eigen::Vector2d& high, Random& r
   return {x, y, random.uniform(-std::numbers::pi, std::numbers::pi)};
 }
 
-void add_scan(const Cloud& scan, const Pose2& pose, VoxelMap& map) {
-  for (const auto& p : scan.points) {
-    const Eigen::Vector3d p_map = pose * p.cast<double>();
-    map.insert(voxel_at(p_map, map.resolution_m()));
-  }
-}
-
 }  // namespace
 
 TestFloorConfig floor_60_40(int seed) {
@@ -43,7 +36,7 @@ TestFloor make_test_floor(const TestFloorConfig& config) {
                   make_floor(wing, config.wings),
                   {-1.0, -wing.depth_m / 2.0},
                   {wing.length_m - 1.0, (config.wings - 0.5) * wing.depth_m + 0.12 * config.wings},
-                  VoxelMap(kFinestResolution_m)};
+                  {}};
   Random random(static_cast<std::uint64_t>(wing.seed), 77);
   const double step = config.map_scan_spacing_m;
   std::uint64_t seed = 0;
@@ -51,7 +44,7 @@ TestFloor make_test_floor(const TestFloorConfig& config) {
     for (double x = floor.low.x(); x < floor.high.x(); x += step) {
       const Pose2 pose = pose_in({x, y}, {x + step, y + step}, random);
       if (has_room(floor, pose))
-        add_scan(scan_at(floor.building, pose, 0, ++seed), pose, floor.map);
+        add_scan(scan_at(floor.building, pose, 0, ++seed), to_pose3(pose), 100.0, floor.map);
     }
   }
   return floor;

@@ -9,7 +9,7 @@
 #include "simulation/floor.h"
 #include "simulation/ideal_sweep.h"
 #include "simulation/random.h"
-#include "voxels/voxel_map.h"
+#include "voxels/occupancy_map.h"
 
 namespace voxlist {
 
@@ -18,7 +18,7 @@ struct TestFloor {
   std::string name;
   Building building;
   Eigen::Vector2d low, high;  ///< where the robot may be
-  VoxelMap map;
+  OccupancyMap map;
 };
 
 struct TestFloorConfig {

@@ -11,7 +11,7 @@ int main(int argc, char** argv) try {
   voxlist::MapBuilder builder;
   for (voxlist::Keyframe& keyframe : stored.keyframes) builder.add(std::move(keyframe));
   std::printf("map %lld, %zu keyframes, hash %016llx\n", static_cast<long long>(stored.map_id),
-              builder.keyframes().size(), static_cast<unsigned long long>(builder.map().hash()));
+              builder.keyframes().size(), static_cast<unsigned long long>(builder.map().occupied.hash()));
   return 0;
 } catch (const std::exception& error) {
   std::fprintf(stderr, "map_hash: %s\n", error.what());

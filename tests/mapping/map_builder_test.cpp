@@ -24,8 +24,8 @@ TEST(MapBuilder, WantsTheFirstCloudAndThenThoseThatMovedEnough) {
 TEST(MapBuilder, PutsPointsWhereTheirPoseSays) {
   MapBuilder builder;
   builder.add(keyframe_at({1.0, 2.0, 1.5707963267948966}, {{1.005f, 0.005f, 0.5f}}));
-  EXPECT_EQ(builder.map().size(), 1u);
-  EXPECT_TRUE(builder.map().contains(voxel_at(Eigen::Vector3d(0.995, 3.005, 0.5), 0.02)));
+  EXPECT_EQ(builder.map().occupied.size(), 1u);
+  EXPECT_TRUE(builder.map().occupied.contains(voxel_at(Eigen::Vector3d(0.995, 3.005, 0.5), 0.02)));
 }
 
 TEST(MapBuilder, LeavesOutPointsBeyondItsRangeFromTheirOrigin) {
@@ -33,16 +33,16 @@ TEST(MapBuilder, LeavesOutPointsBeyondItsRangeFromTheirOrigin) {
   Keyframe keyframe = keyframe_at({}, {{6.f, 0.f, 0.f}, {6.f, 1.f, 0.f}});
   keyframe.cloud.origins = {{0.f, 0.f, 0.f}, {2.f, 1.f, 0.f}};
   builder.add(keyframe);
-  EXPECT_EQ(builder.map().size(), 1u);
-  EXPECT_TRUE(builder.map().contains(voxel_at(Eigen::Vector3d(6.0, 1.0, 0.0), 0.02)));
+  EXPECT_EQ(builder.map().occupied.size(), 1u);
+  EXPECT_TRUE(builder.map().occupied.contains(voxel_at(Eigen::Vector3d(6.0, 1.0, 0.0), 0.02)));
 }
 
 TEST(MapBuilder, NamesTheBlocksThatAKeyframeChanged) {
   MapBuilder builder;
   builder.add(keyframe_at({}, {{0.01f, 0.01f, 0.01f}, {5.01f, 0.01f, 0.01f}}));
-  EXPECT_EQ(builder.changed_blocks(), (std::vector<Voxel>{{0, 0, 0}, {31, 0, 0}}));
+  EXPECT_EQ(builder.changed_blocks().occupied, (std::vector<Voxel>{{0, 0, 0}, {31, 0, 0}}));
   builder.add(keyframe_at({}, {{0.01f, 0.01f, 0.01f}, {5.03f, 0.01f, 0.01f}}));
-  EXPECT_EQ(builder.changed_blocks(), (std::vector<Voxel>{{31, 0, 0}}));
+  EXPECT_EQ(builder.changed_blocks().occupied, (std::vector<Voxel>{{31, 0, 0}}));
 }
 
 }  // namespace

@@ -36,19 +36,18 @@ Drive drive(int seed, double duration_s) {
   return drive;
 }
 
-void add(VoxelMap& map, const Cloud& cloud, const Pose2& pose) {
-  for (const auto& p : cloud.points)
-    map.insert(voxel_at(pose * p.cast<double>(), map.resolution_m()));
+void add(OccupancyMap& map, const Cloud& cloud, const Pose2& pose) {
+  add_scan(cloud, to_pose3(pose), 100.0, map);
 }
 
-VoxelMap map_at_truth(const Drive& drive) {
-  VoxelMap map;
+OccupancyMap map_at_truth(const Drive& drive) {
+  OccupancyMap map;
   for (std::size_t i = 0; i < drive.clouds.size(); ++i) add(map, drive.clouds[i], drive.truth[i]);
   return map;
 }
 
 TEST(Localiser, FirstCloudDefinesTheMapFrame) {
-  VoxelMap map;
+  OccupancyMap map;
   Localiser localiser(map);
   const Drive run = drive(1, 1.0);
   const auto result = localiser.localise(run.clouds[0]);
@@ -62,16 +61,16 @@ TEST(Localiser, ClaimsNothingFromAHandfulOfPoints) {
   Cloud few = run.clouds[1];
   few.points.resize(40);
   few.origins.clear();
-  VoxelMap empty;
+  OccupancyMap empty;
   EXPECT_FALSE(Localiser(empty).localise(few).tracking());
-  const VoxelMap map = map_at_truth(run);
+  const OccupancyMap map = map_at_truth(run);
   Localiser localiser(map);
   EXPECT_FALSE(localiser.localise(few).tracking());
 }
 
 // Maps scan by scan, and returns the largest error of a pose.
 double largest_mapping_error_m(const Drive& run, bool with_odometry) {
-  VoxelMap map;
+  OccupancyMap map;
   Localiser localiser(map);
   double worst = 0.0;
   for (std::size_t i = 0; i < run.clouds.size(); ++i) {
@@ -94,7 +93,7 @@ TEST(Localiser, TracksWhileItsMapGrows) {
 
 TEST(Localiser, FindsScansInTheWholeMapOrSaysThatItIsNotSure) {
   const Drive run = drive(2, 40.0);
-  const VoxelMap map = map_at_truth(run);
+  const OccupancyMap map = map_at_truth(run);
   Localiser localiser(map);
   int sure = 0;
   for (std::size_t i = 1; i < run.clouds.size(); i += 4) {
@@ -109,7 +108,7 @@ TEST(Localiser, FindsScansInTheWholeMapOrSaysThatItIsNotSure) {
 }
 
 TEST(Localiser, IsNotSureOfAScanOfAnotherBuilding) {
-  const VoxelMap map = map_at_truth(drive(3, 40.0));
+  const OccupancyMap map = map_at_truth(drive(3, 40.0));
   const Drive other = drive(1003, 20.0);
   Localiser localiser(map);
   for (std::size_t i = 0; i < other.clouds.size(); i += 5) {
@@ -119,7 +118,7 @@ TEST(Localiser, IsNotSureOfAScanOfAnotherBuilding) {
 
 TEST(Localiser, SearchesTheWholeMapAfterItHasForgotten) {
   const Drive run = drive(4, 30.0);
-  const VoxelMap map = map_at_truth(run);
+  const OccupancyMap map = map_at_truth(run);
   Localiser localiser(map);
   std::size_t i = 0;
   while (!localiser.localise(run.clouds[i]).tracking()) ASSERT_LT(++i, run.clouds.size());
@@ -130,7 +129,7 @@ TEST(Localiser, SearchesTheWholeMapAfterItHasForgotten) {
 
 TEST(Localiser, GivesTheSameBitsForAnyNumberOfThreads) {
   const Drive run = drive(5, 12.0);
-  const VoxelMap map = map_at_truth(run);
+  const OccupancyMap map = map_at_truth(run);
   std::vector<Localisation> results;
   for (const std::size_t threads : {1, 2, 4}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
@@ -149,11 +148,11 @@ TEST(Localiser, GivesTheSameBitsForAnyNumberOfThreads) {
 
 TEST(Localiser, RunsThePapersFilterWhenAsked) {
   const Drive run = drive(1, 3.0);
-  VoxelMap map;
+  OccupancyMap map;
   add(map, run.clouds[0], Pose2{});
   LocaliserConfig config;
   config.matcher.engine = "particle_filter";
-  VoxelMap empty;
+  OccupancyMap empty;
   Localiser localiser(empty, config);
   localiser.localise(run.clouds[0]);
   add(empty, run.clouds[0], Pose2{});
@@ -165,7 +164,7 @@ TEST(Localiser, RunsThePapersFilterWhenAsked) {
 }
 
 TEST(Localiser, RefusesAnUnknownEngine) {
-  VoxelMap map;
+  OccupancyMap map;
   LocaliserConfig config;
   config.matcher.engine = "magic";
   EXPECT_THROW(Localiser(map, config), std::invalid_argument);

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "matching/matcher.h"
+#include "voxels/voxel_map.h"
+
+namespace voxlist {
+
+/// The paper's filter as an engine, its poses refined as others are.
+std::unique_ptr<Matcher> make_filter_matcher(const VoxelMap& map, const MatcherConfig& config);
+
+}  // namespace voxlist

@@ -1,0 +1,56 @@
+#include "matching/global_matcher.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "matching/match_modes.h"
+
+namespace voxlist {
+
+GlobalMatcher::GlobalMatcher(const OccupancyMap& map, const SurfelMap& surfels,
+                             const MatcherConfig& config)
+    : map_(map), surfels_(surfels), config_(config) {}
+
+Match GlobalMatcher::match(const Cloud& cloud) {
+  const GlobalMap& map = map_for(reach_m(cloud.points));
+  const auto scan =
+      map.choose_points(cloud.points, static_cast<std::size_t>(config_.search_points));
+  if (scan.size() < kFewestMatchPoints) return {};
+  SearchConfig config{.max_nodes = config_.max_nodes};
+  config.mode_ratio = 0.85;
+  config.max_modes = 4;
+  const SearchResult found = global_search(map, scan, config);
+  Match match;
+  match.certified = found.certified;
+  match.complete = found.complete;
+  match.poses_examined = found.poses_examined;
+  if (found.modes.empty()) return match;
+  match.modes =
+      refined(surfels_, chosen_points(cloud.points, config_, 0.1, config_.refine_points).points,
+              candidates_of(found, scan.size()));
+  match.rivalry = rivalry(match.modes);
+  const TolerantMap& cells = map.tolerant();
+  match.significance_log10 = log10_significance(
+      std::int64_t{cells.size_x()} * cells.size_y() * cells.size_z(), cells.occupied_cells(),
+      scan.size(), found.modes.front().overlap, found.lattice_poses);
+  return match;
+}
+
+// How far the scan reaches, in few steps: the map is made ready for each anew, and the lattice
+// depends on it.
+double GlobalMatcher::reach_m(std::span<const Eigen::Vector3f> points) const {
+  double farthest_m = 0.0;
+  for (const auto& p : points)
+    farthest_m = std::max(farthest_m, std::hypot(double(p.x()), double(p.y())));
+  double reach_m = 12.0;
+  while (reach_m < std::min(farthest_m, config_.max_range_m)) reach_m *= 2.0;
+  return std::min(reach_m, config_.max_range_m);
+}
+
+const GlobalMap& GlobalMatcher::map_for(double reach_m) {
+  if (!global_map_ || global_map_->coarse().reach_m() != reach_m)
+    global_map_.emplace(map_.occupied, config_.resolution_m, reach_m);
+  return *global_map_;
+}
+
+}  // namespace voxlist

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "matching/global_search.h"
+#include "matching/matcher.h"
+#include "matching/surfels.h"
+#include "voxels/occupancy_map.h"
+
+namespace voxlist {
+
+/// Finds a scan anywhere in a map, without a guess. Both maps must outlive it.
+class GlobalMatcher {
+ public:
+  GlobalMatcher(const OccupancyMap& map, const SurfelMap& surfels, const MatcherConfig& config);
+
+  Match match(const Cloud& scan);
+
+ private:
+  double reach_m(std::span<const Eigen::Vector3f> points) const;
+  const GlobalMap& map_for(double reach_m);
+
+  const OccupancyMap& map_;
+  const SurfelMap& surfels_;
+  const MatcherConfig config_;
+  std::optional<GlobalMap> global_map_;
+};
+
+}  // namespace voxlist

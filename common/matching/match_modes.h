@@ -1,0 +1,43 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "matching/matcher.h"
+#include "matching/surfels.h"
+
+// What all engines do with the poses that they have found.
+
+namespace voxlist {
+
+/// A mode that is not refined yet.
+MatchMode candidate(const Pose2& pose, double overlap);
+
+/// A search's modes, to be refined. `points`: how many were counted.
+std::vector<MatchMode> candidates_of(const SearchResult& found, std::size_t points);
+
+/// Whether one of the modes is about at this pose.
+bool holds(const std::vector<MatchMode>& modes, const Pose2& pose);
+
+/// Refines candidates and keeps the distinct ones, in their order.
+std::vector<MatchMode> refined(const SurfelMap& surfels, std::span<const Eigen::Vector3f> points,
+                               const std::vector<MatchMode>& candidates);
+
+/// The same, best fit first.
+std::vector<MatchMode> refined_by_fit(const SurfelMap& surfels,
+                                      std::span<const Eigen::Vector3f> points,
+                                      std::vector<MatchMode> candidates);
+
+/// How near the second mode comes to the first (Match::rivalry).
+double rivalry(const std::vector<MatchMode>& modes);
+
+/// The points of a scan that a search, or a refinement, uses.
+MatchPoints chosen_points(std::span<const Eigen::Vector3f> points, const MatcherConfig& config,
+                          double spacing_m, int most);
+
+/// log10 significance of the best of `poses` poses (paper, section IV): `occupied` of `volume`
+/// cells, and an overlap of that many of the points.
+double log10_significance(std::int64_t volume, std::int64_t occupied, std::size_t points,
+                          int overlap, double poses);
+
+}  // namespace voxlist

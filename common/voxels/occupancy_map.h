@@ -1,0 +1,34 @@
+#pragma once
+
+#include <vector>
+
+#include "geometry/cloud.h"
+#include "geometry/pose.h"
+#include "voxels/voxel_map.h"
+
+namespace voxlist {
+
+/// Edge of the cells that rays are known to have passed (m).
+inline constexpr double kPassedResolution_m = 0.08;
+
+/// What is known of the space that a robot has seen: voxels that were hit, and coarser cells that
+/// rays went through. A cell with neither is unknown: no scan may be blamed for what it sees there.
+struct OccupancyMap {
+  VoxelMap occupied{kFinestResolution_m};
+  VoxelMap passed{kPassedResolution_m};
+
+  bool empty() const { return occupied.empty(); }
+};
+
+/// Positions (block coordinates of each map) of blocks that changed, each once, ascending.
+struct ChangedBlocks {
+  std::vector<Voxel> occupied, passed;
+};
+
+/// Adds a scan (in base) to a map: its points, and the way of its rays up to them. Points farther
+/// than max_range_m from where their rays started are left out, ray and all, and so are those
+/// outside the lattice.
+ChangedBlocks add_scan(const Cloud& cloud_base, const Pose3& T_map_base, double max_range_m,
+                       OccupancyMap& map);
+
+}  // namespace voxlist
