@@ -8,7 +8,8 @@
 namespace voxlist {
 
 /// Size of a simulated building. Metres, inner measures. Rooms get no smaller than 2.4 m: more of
-/// them, or more stairs, than fit is an std::invalid_argument.
+/// them, or more stairs, than fit is an std::invalid_argument. So are rooms that are alike and odd
+/// in number or with stairs.
 struct BuildingConfig {
   double length_m = 16.0;  ///< along the corridor
   double depth_m = 12.0;   ///< across it
@@ -19,6 +20,8 @@ struct BuildingConfig {
   int seed = 1;
   int stairs = 0;  ///< flights of stairs down, each along a room's outer wall
   int pipes = 0;  ///< rooms with a pipe across a corner; with any, one under the corridor's ceiling
+  int alike = 0;  ///< other than 0: one room for all, as in a hotel; the seed of that room
+  int objects = 0;  ///< small things on each room's floor, by the building's seed: tried for
   int changed =
       0;  ///< other than 0: the same building, later: some furniture is moved, gone, or new
 };
@@ -57,6 +60,9 @@ struct Building {
 
 /// Builds walls with doors, floor, ceiling, stairs, pipes and furniture: the same for the same
 /// config, on every machine. Stairs and pipes leave walls and doors where they are.
+///
+/// Rooms that are alike have the same size, door and furniture, those on the right of the corridor
+/// turned round, and the corridor is bare: only small objects and pipes tell one from the other.
 Building make_building(const BuildingConfig& config);
 
 }  // namespace voxlist

@@ -2,17 +2,20 @@
 
 #include <utility>
 
+#include "simulation/floor_plan.h"
+
 namespace voxlist {
 
+double wing_pitch_m(const BuildingConfig& wing) { return wing.depth_m + kWall_m; }
+
 Building make_floor(const BuildingConfig& wing, int wings) {
-  constexpr double kSharedWall_m = 0.12;
   std::vector<Box> boxes;
   std::vector<Room> rooms;
   for (int i = 0; i < wings; ++i) {
     BuildingConfig config = wing;
     config.seed = wing.seed + i;
     const Building one = make_building(config);
-    const Eigen::Vector2d shift(0.0, i * (wing.depth_m + kSharedWall_m));
+    const Eigen::Vector2d shift(0.0, i * wing_pitch_m(wing));
     for (Box box : one.solid.boxes()) {
       box.centre_m.head<2>() += shift;
       boxes.push_back(box);

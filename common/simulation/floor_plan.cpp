@@ -60,19 +60,31 @@ class Planner {
     if (count == 0) return add_wall(low_.x(), corridor, high_.x(), corridor + side * kWall_m);
     const double width = config_.length_m / count;
     double from = low_.x();
+    const double alike = (config_.length_m - (count - 1) * kWall_m) / count;
     for (int i = 0; i < count; ++i) {
       const bool last = i + 1 == count;
-      const double to = last ? high_.x() : low_.x() + width * (i + 1 + random_.uniform(-0.1, 0.1));
+      const double to = last ? high_.x()
+                        : config_.alike != 0
+                            ? from + alike
+                            : low_.x() + width * (i + 1 + random_.uniform(-0.1, 0.1));
       add_room(side, from, to);
       if (!last) add_wall(to, corridor, to + kWall_m, side * high_.y());
       from = last ? to : to + kWall_m;
     }
   }
 
+  // In rooms that are alike, where the first has it, seen from the corridor.
+  double door_between(double side, double x0, double x1) {
+    if (config_.alike == 0 || plan_.rooms.empty())
+      return random_.uniform(x0 + kDoorFromCorner, x1 - kDoorFromCorner);
+    const double into = plan_.rooms.front().door.x() - plan_.rooms.front().low.x();
+    return side > 0.0 ? x0 + into : x1 - into;
+  }
+
   void add_room(double side, double x0, double x1) {
     const double corridor = side * config_.corridor_width_m / 2.0;
     const double inner = corridor + side * kWall_m, outer = side * high_.y();
-    const double door = random_.uniform(x0 + kDoorFromCorner, x1 - kDoorFromCorner);
+    const double door = door_between(side, x0, x1);
     const double door0 = door - kDoorWidth / 2.0, door1 = door + kDoorWidth / 2.0;
     add_wall(x0, corridor, door0, inner);
     add_wall(door1, corridor, x1, inner);
@@ -102,14 +114,6 @@ class Planner {
   FloorPlan plan_;
 };
 
-Rectangle footprint(const Box& box) {
-  const double c = std::abs(std::cos(box.yaw_rad)), s = std::abs(std::sin(box.yaw_rad));
-  const Vector2d half{c * box.half_m.x() + s * box.half_m.y(),
-                      s * box.half_m.x() + c * box.half_m.y()};
-  const Vector2d centre = box.centre_m.head<2>();
-  return {centre - half, centre + half};
-}
-
 }  // namespace
 
 bool FloorPlan::leaves_room_for(const Box& box, const Rectangle& region) const {
@@ -130,6 +134,14 @@ Box block(const Vector3d& low, const Vector3d& high) {
 
 Box standing(const Vector2d& centre, const Vector3d& size, double yaw_rad) {
   return {{centre.x(), centre.y(), size.z() / 2.0}, size / 2.0, yaw_rad};
+}
+
+Rectangle footprint(const Box& box) {
+  const double c = std::abs(std::cos(box.yaw_rad)), s = std::abs(std::sin(box.yaw_rad));
+  const Vector2d half{c * box.half_m.x() + s * box.half_m.y(),
+                      s * box.half_m.x() + c * box.half_m.y()};
+  const Vector2d centre = box.centre_m.head<2>();
+  return {centre - half, centre + half};
 }
 
 FloorPlan make_floor_plan(const BuildingConfig& config, Random& random) {

@@ -35,6 +35,9 @@ Box block(const Eigen::Vector3d& low, const Eigen::Vector3d& high);
 /// A box that stands on the floor.
 Box standing(const Eigen::Vector2d& centre, const Eigen::Vector3d& size, double yaw_rad = 0.0);
 
+/// The smallest rectangle, sides along x and y, over which a box stands.
+Rectangle footprint(const Box& box);
+
 /// Outer walls, floor, ceiling, and rooms with doors on both sides of a corridor.
 FloorPlan make_floor_plan(const BuildingConfig& config, Random& random);
 

@@ -103,6 +103,17 @@ class Furnisher {
   Random& random_;
 };
 
+// A piece of one room in another that is like it; across the corridor rooms are turned round.
+Furniture copied(const Furniture& piece, const Room& from, const Room& to) {
+  Furniture copy{{to.low, to.high}, piece.boxes};
+  const bool same_side = (from.door.y() > 0.0) == (to.door.y() > 0.0);
+  for (Box& box : copy.boxes) {
+    const Vector2d at = box.centre_m.head<2>() - from.low;
+    box.centre_m.head<2>() = same_side ? Vector2d(to.low + at) : Vector2d(to.high - at);
+  }
+  return copy;
+}
+
 bool missing(const Furniture& piece) { return piece.boxes.empty(); }
 
 }  // namespace
@@ -111,11 +122,18 @@ std::vector<Furniture> furnish(const FloorPlan& plan, const BuildingConfig& conf
                                Random& random) {
   Furnisher furnisher(plan, config, random);
   std::vector<Furniture> furniture;
-  for (const Rectangle& region : furnisher.regions())
+  for (const Rectangle& region : furnisher.regions()) {
     for (int i = 0; i < config.furniture_per_room; ++i)
       furniture.push_back(furnisher.piece(region));
+    if (config.alike != 0) break;
+  }
   std::erase_if(furniture, missing);
-  return furniture;
+  if (config.alike == 0 || plan.rooms.empty()) return furniture;
+  std::vector<Furniture> copies;
+  for (const Room& room : plan.rooms)
+    for (const Furniture& piece : furniture)
+      copies.push_back(copied(piece, plan.rooms.front(), room));
+  return copies;
 }
 
 std::vector<Furniture> rearranged(std::vector<Furniture> furniture, const FloorPlan& plan,

@@ -16,7 +16,8 @@ struct Furniture {
 };
 
 /// Furniture for every room and the corridor, as many pieces as fit out of those tried for. Tables
-/// stand on four legs, and their tops overhang.
+/// stand on four legs, and their tops overhang. Rooms that are alike get copies of the first one's,
+/// and the corridor nothing.
 std::vector<Furniture> furnish(const FloorPlan& plan, const BuildingConfig& config, Random& random);
 
 /// What a while later stands there: some pieces are gone, some moved within their region, and some

@@ -58,6 +58,10 @@ struct SimulationConfig {
     v("stairs", building.stairs, "flights of stairs down, in rooms", 0, 10);
     v("pipes", building.pipes, "rooms with a pipe across a corner; any: one in the corridor too", 0,
       100);
+    v("alike", building.alike,
+      "not 0: one room, of this seed, for all, as in a hotel; needs an even `rooms`", 0,
+      1'000'000'000);
+    v("objects", building.objects, "small things on each room's floor, tried for", 0, 100);
     v("people", people.count, "who walk from room to room", 0, 50);
     v("odometry_errors", odometry_errors, "times the wheels' usual errors; 0: they are perfect",
       0.0, 100.0);
