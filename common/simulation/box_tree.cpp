@@ -97,19 +97,29 @@ void BoxTree::build(std::size_t begin, std::size_t end) {
 
 std::optional<double> BoxTree::range(const Eigen::Vector3d& origin,
                                      const Eigen::Vector3d& direction) const {
+  struct Candidate {
+    std::size_t node;
+    double entry;
+  };
+  const auto candidate = [&](std::size_t node) {
+    return Candidate{node, entry(nodes_[node].low, nodes_[node].high, origin, direction)};
+  };
   double nearest = kInfinity;
-  std::size_t stack[64] = {0};
-  std::size_t depth = nodes_.empty() ? 0 : 1;
+  Candidate stack[64];
+  std::size_t depth = 0;
+  if (!nodes_.empty()) stack[depth++] = candidate(0);
   while (depth > 0) {
-    const std::size_t self = stack[--depth];
-    const Node& node = nodes_[self];
-    if (entry(node.low, node.high, origin, direction) >= nearest) continue;
+    const Candidate at = stack[--depth];
+    if (at.entry >= nearest) continue;
+    const Node& node = nodes_[at.node];
     if (node.right == 0) {
       for (std::size_t i = node.begin; i < node.end; ++i)
         nearest = std::min(nearest, entry(boxes_[i], origin, direction));
-    } else {
-      stack[depth++] = node.right;
-      stack[depth++] = self + 1;
+    } else {  // the nearer child first
+      Candidate near = candidate(at.node + 1), far = candidate(node.right);
+      if (far.entry < near.entry) std::swap(near, far);
+      stack[depth++] = far;
+      stack[depth++] = near;
     }
   }
   return nearest < kInfinity ? std::optional(nearest) : std::nullopt;
