@@ -1,0 +1,202 @@
+#include "matching/evidence.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace voxlist {
+namespace {
+
+// A ray's end is on a voxel of the map when one is this near on each axis, in voxels.
+constexpr std::int32_t kReach = 2;
+// What rays are not asked about (m): the robot itself, and the surroundings of what was hit.
+constexpr double kStart_m = 0.3, kEnd_m = 0.4;
+// Longer rays are followed this far (m).
+constexpr double kLongest_m = 100.0;
+// Rays are looked at in steps of this (m). One step in matter may be a corner grazed; a thing that
+// is passed takes two, and then this many free ones.
+constexpr double kStep_m = 0.03;
+constexpr int kStepsInMatter = 2, kStepsFree = 3;
+
+// A point that moves in steps, in fractions of a voxel: integers, so that steps cost little.
+struct Walker {
+  static constexpr int kFractionBits = 20;
+  std::int64_t x, y, z, step_x, step_y, step_z;
+
+  Walker(const Eigen::Vector3d& from, const Eigen::Vector3d& step, double voxel_m) {
+    const auto fixed = [&](double value_m) {
+      return std::llround(std::ldexp(value_m / voxel_m, kFractionBits));
+    };
+    x = fixed(from.x()), y = fixed(from.y()), z = fixed(from.z());
+    step_x = fixed(step.x()), step_y = fixed(step.y()), step_z = fixed(step.z());
+  }
+
+  Voxel at() const {
+    const auto cell = [](std::int64_t v) { return static_cast<std::int32_t>(v >> kFractionBits); };
+    return {cell(x), cell(y), cell(z)};
+  }
+
+  void move() { x += step_x, y += step_y, z += step_z; }
+};
+
+// Blocks of the map, 2^shift of them a cell: as few as keep the cells within bounds.
+BitGrid filled_cells(const VoxelMap& map, int& shift) {
+  if (map.block_count() == 0) return BitGrid({0, 0, 0}, 1, 1, 1);
+  Voxel low = map.block_position(0), high = low;
+  for (std::size_t i = 0; i < map.block_count(); ++i) {
+    const Voxel& v = map.block_position(i);
+    low = {std::min(low.x, v.x), std::min(low.y, v.y), std::min(low.z, v.z)};
+    high = {std::max(high.x, v.x), std::max(high.y, v.y), std::max(high.z, v.z)};
+  }
+  constexpr double kMostCells = 1 << 29;
+  const auto size = [&](std::int32_t a, std::int32_t b) { return (b >> shift) - (a >> shift) + 1; };
+  for (shift = 0;
+       double(size(low.x, high.x)) * size(low.y, high.y) * size(low.z, high.z) > kMostCells;)
+    ++shift;
+  BitGrid grid({low.x >> shift, low.y >> shift, low.z >> shift}, size(low.x, high.x),
+               size(low.y, high.y), size(low.z, high.z));
+  for (std::size_t i = 0; i < map.block_count(); ++i) {
+    const Voxel& v = map.block_position(i);
+    grid.set({v.x >> shift, v.y >> shift, v.z >> shift});
+  }
+  return grid;
+}
+
+// Bits 8 y + x for the x and y within two ranges of a block's 0..7, bounds cut to it.
+std::uint64_t square(std::int32_t low_x, std::int32_t high_x, std::int32_t low_y,
+                     std::int32_t high_y) {
+  std::uint64_t bits = 0;
+  for (std::int32_t y = std::max(0, low_y); y <= std::min(kBlockEdge - 1, high_y); ++y)
+    for (std::int32_t x = std::max(0, low_x); x <= std::min(kBlockEdge - 1, high_x); ++x)
+      bits |= std::uint64_t{1} << (kBlockEdge * y + x);
+  return bits;
+}
+
+// Whether a voxel of the block is within reach of one that is given relative to its lowest.
+bool touches(const VoxelBlock& block, const Voxel& v) {
+  const std::uint64_t near = square(v.x - kReach, v.x + kReach, v.y - kReach, v.y + kReach);
+  for (std::int32_t z = std::max(0, v.z - kReach); z <= std::min(kBlockEdge - 1, v.z + kReach); ++z)
+    if (block[static_cast<std::size_t>(z)] & near) return true;
+  return false;
+}
+
+}  // namespace
+
+std::vector<EvidenceRay> choose_evidence_rays(const Cloud& scan, std::size_t most) {
+  constexpr double kSpacing_m = 0.2;
+  struct InCube {
+    Voxel cube;
+    std::size_t i;
+  };
+  std::vector<InCube> in_cubes;
+  for (std::size_t i = 0; i < scan.points.size(); ++i) {
+    const auto& p = scan.points[i];
+    if (in_lattice(p, kFinestResolution_m) && in_lattice(scan.origin(i), kFinestResolution_m))
+      in_cubes.push_back({voxel_at(p, kSpacing_m), i});
+  }
+  // By layers first.
+  std::sort(in_cubes.begin(), in_cubes.end(), [](const InCube& a, const InCube& b) {
+    return std::tie(a.cube.z, a.cube.y, a.cube.x, a.i) <
+           std::tie(b.cube.z, b.cube.y, b.cube.x, b.i);
+  });
+  in_cubes.erase(std::unique(in_cubes.begin(), in_cubes.end(),
+                             [](const InCube& a, const InCube& b) { return a.cube == b.cube; }),
+                 in_cubes.end());
+  std::vector<std::pair<std::size_t, std::size_t>> layers;  // begin, end
+  for (std::size_t i = 0; i < in_cubes.size(); ++i) {
+    if (i == 0 || in_cubes[i].cube.z != in_cubes[i - 1].cube.z) layers.emplace_back(i, i);
+    layers.back().second = i + 1;
+  }
+  // The largest cap that `most` allow.
+  std::size_t low = 0, high = most;
+  while (low < high) {
+    const std::size_t cap = (low + high + 1) / 2;
+    std::size_t total = 0;
+    for (const auto& [begin, end] : layers) total += std::min(end - begin, cap);
+    (total <= most ? low : high) = total <= most ? cap : cap - 1;
+  }
+  std::vector<EvidenceRay> rays;
+  for (const auto& [begin, end] : layers) {
+    const std::size_t size = end - begin, kept = std::min(size, low);
+    for (std::size_t k = 0; k < kept; ++k) {
+      const std::size_t i = in_cubes[begin + k * size / kept].i;
+      rays.push_back({scan.origin(i), scan.points[i]});
+    }
+  }
+  return rays;
+}
+
+EvidenceMap::EvidenceMap(const OccupancyMap& map)
+    : map_(map), filled_(filled_cells(map.occupied, shift_)) {}
+
+Evidence EvidenceMap::at(const Pose2& pose, const std::vector<EvidenceRay>& rays) const {
+  Evidence sum;
+  const double c = std::cos(pose.yaw_rad), s = std::sin(pose.yaw_rad);
+  const auto moved = [&](const Eigen::Vector3f& p) {
+    return Eigen::Vector3d(pose.x_m + c * p.x() - s * p.y(), pose.y_m + s * p.x() + c * p.y(),
+                           p.z());
+  };
+  for (const EvidenceRay& ray : rays) {
+    const Eigen::Vector3d from = moved(ray.origin), to = moved(ray.end);
+    if (!in_lattice(to, kFinestResolution_m) || !in_lattice(from, kFinestResolution_m)) continue;
+    ++sum.points;
+    if (hit(to))
+      ++sum.hits;
+    else if (map_.passed.contains(voxel_at(to, map_.passed.resolution_m())))
+      ++sum.misses;
+    else
+      ++sum.unknown;
+    if ((to - from).norm() < kStart_m + kEnd_m) continue;
+    ++sum.rays;
+    sum.violations += violated(from, to);
+  }
+  return sum;
+}
+
+bool EvidenceMap::hit(const Eigen::Vector3d& end) const {
+  const Voxel v = voxel_at(end, map_.occupied.resolution_m());
+  const Voxel first = block_of({v.x - kReach, v.y - kReach, v.z - kReach}),
+              last = block_of({v.x + kReach, v.y + kReach, v.z + kReach});
+  for (Voxel b = first; b.z <= last.z; ++b.z)
+    for (b.y = first.y; b.y <= last.y; ++b.y)
+      for (b.x = first.x; b.x <= last.x; ++b.x) {
+        const VoxelBlock* block = map_.occupied.find_block(b);
+        if (block && touches(*block, {v.x - kBlockEdge * b.x, v.y - kBlockEdge * b.y,
+                                      v.z - kBlockEdge * b.z}))
+          return true;
+      }
+  return false;
+}
+
+bool EvidenceMap::in_matter(const Voxel& voxel) const {
+  const Voxel position = block_of(voxel);
+  if (!filled_.test({position.x >> shift_, position.y >> shift_, position.z >> shift_}))
+    return false;
+  const VoxelBlock* block = map_.occupied.find_block(position);
+  if (!block) return false;
+  const auto z = static_cast<std::size_t>(voxel.z & 6);
+  const std::uint64_t two_by_two = std::uint64_t{0x303} << ((voxel.x & 6) + 8 * (voxel.y & 6));
+  return (((*block)[z] | (*block)[z + 1]) & two_by_two) != 0;
+}
+
+bool EvidenceMap::violated(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const {
+  const double length_m = (to - from).norm();
+  const Eigen::Vector3d way = (to - from) / length_m;
+  Walker walker(from + kStart_m * way, kStep_m * way, map_.occupied.resolution_m());
+  int in_matter_now = 0, free_since = 0;
+  bool passed = false;
+  const double looked_at_m = std::min(length_m, kLongest_m) - kStart_m - kEnd_m;
+  for (auto steps = static_cast<int>(looked_at_m / kStep_m); steps > 0; --steps) {
+    if (in_matter(walker.at())) {
+      passed = passed || ++in_matter_now >= kStepsInMatter;
+      free_since = 0;
+    } else {
+      in_matter_now = 0;
+      if (passed && ++free_since >= kStepsFree) return true;
+    }
+    walker.move();
+  }
+  return false;
+}
+
+}  // namespace voxlist

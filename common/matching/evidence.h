@@ -1,0 +1,60 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "geometry/cloud.h"
+#include "geometry/pose.h"
+#include "voxels/bit_grid.h"
+#include "voxels/occupancy_map.h"
+
+namespace voxlist {
+
+/// What a map says to a scan at a pose. Integers alone: the same bits everywhere.
+struct Evidence {
+  /// Ends of rays, each one of three: on something that the map knows (hits), in space that rays
+  /// have passed (misses: people, moved furniture, or a wrong pose), anywhere else (unknown).
+  int points = 0;
+  int hits = 0;
+  int misses = 0;
+  int unknown = 0;
+  /// Rays long enough to be looked at, and those that went through a thing of the map well before
+  /// their end: gone furniture, or a wrong pose.
+  int rays = 0;
+  int violations = 0;
+
+  bool operator==(const Evidence&) const = default;
+};
+
+/// One ray of a scan, in base (m).
+struct EvidenceRay {
+  Eigen::Vector3f origin, end;
+};
+
+/// Rays of a scan that stand for all: one of each cube of 0.2 m, layers of one height capped alike
+/// so that floor and ceiling do not outvote walls, at most `most`. The same rays in the same order
+/// for the same cloud. Not finite or absurdly far points are left out.
+std::vector<EvidenceRay> choose_evidence_rays(const Cloud& scan, std::size_t most = 600);
+
+/// A map made ready for weighing poses; rebuild it after the map has changed. The map must outlive
+/// it. Reading from several threads is safe.
+class EvidenceMap {
+ public:
+  explicit EvidenceMap(const OccupancyMap& map);
+
+  /// About 0.2 ms for 600 rays of 4 m.
+  Evidence at(const Pose2& T_map_base, const std::vector<EvidenceRay>& rays) const;
+
+ private:
+  bool hit(const Eigen::Vector3d& end) const;
+  bool in_matter(const Voxel& voxel) const;
+  bool violated(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const;
+
+  const OccupancyMap& map_;
+  int shift_ = 0;
+  /// Where the map has any blocks, 2^shift_ blocks a cell along each axis.
+  BitGrid filled_;
+};
+
+}  // namespace voxlist
