@@ -58,6 +58,15 @@ bool VoxelMap::set_block(const Voxel& block, const VoxelBlock& bits) {
   return true;
 }
 
+bool VoxelMap::merge_block(const Voxel& block, const VoxelBlock& bits) {
+  VoxelBlock& held = find_or_add(block);
+  const std::size_t before = voxels_in(held);
+  for (std::size_t i = 0; i < held.size(); ++i) held[i] |= bits[i];
+  const std::size_t news = voxels_in(held) - before;
+  size_ += news;
+  return news > 0;
+}
+
 bool VoxelMap::contains(const Voxel& voxel) const {
   const VoxelBlock* block = find_block(block_of(voxel));
   return block && ((*block)[word_of(voxel)] & bit_of(voxel)) != 0;

@@ -34,6 +34,10 @@ class VoxelMap {
   /// coordinates (voxel / 8, rounded down). Precondition: its voxels are within kVoxelLimit.
   bool set_block(const Voxel& block, const VoxelBlock& bits);
 
+  /// Marks the voxels of a block's set bits as well. True when one was not occupied before.
+  /// Precondition as set_block's.
+  bool merge_block(const Voxel& block, const VoxelBlock& bits);
+
   bool contains(const Voxel& voxel) const;
 
   double resolution_m() const { return resolution_m_; }

@@ -62,6 +62,20 @@ TEST(VoxelMap, BlocksCarryAMapToAnother) {
   EXPECT_FALSE(copy.set_block(map.block_position(0), map.block(0)));
 }
 
+TEST(VoxelMap, AMergedBlockKeepsWhatWasThere) {
+  VoxelMap map, other;
+  map.insert({1, 2, 3});
+  map.insert({4, 2, 3});
+  other.insert({4, 2, 3});
+  other.insert({5, 2, 3});
+  EXPECT_TRUE(map.merge_block({0, 0, 0}, other.block(0)));
+  EXPECT_EQ(map.size(), 3u);
+  EXPECT_TRUE(map.contains({1, 2, 3}) && map.contains({5, 2, 3}));
+  EXPECT_FALSE(map.merge_block({0, 0, 0}, other.block(0)));
+  EXPECT_TRUE(map.merge_block({-1, 0, 0}, other.block(0)));
+  EXPECT_EQ(map.size(), 5u);
+}
+
 TEST(VoxelMap, ABlockSetEmptyLeavesNoTrace) {
   VoxelMap map;
   map.insert({1, 2, 3});

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <unordered_map>
+#include <vector>
+
+#include "voxels/voxel_map.h"
+
+namespace voxlist {
+
+/// The cells that one scan's rays pass, on their way into a map: marked in dense tiles of 64 x 64 x
+/// 64 cells, because a ray stays in a tile for some 40 cells and needs no look-up there.
+class ScanCells {
+ public:
+  void mark(const Voxel& cell) {
+    if (!in_last_tile(cell)) go_to_tile_of(cell);
+    (*last_tile_)[block_in_tile(cell)][static_cast<std::size_t>(cell.z & 7)] |=
+        std::uint64_t{1} << ((cell.x & 7) + 8 * (cell.y & 7));
+  }
+
+  /// Puts the cells into a map and appends the blocks that this changed, each once, in no order.
+  /// None are left here.
+  void move_to(VoxelMap& map, std::vector<Voxel>& changed);
+
+  /// Bytes held: 32 kB a tile.
+  std::size_t memory_bytes() const { return tiles_.size() * sizeof(Tile); }
+
+ private:
+  // 8 x 8 x 8 blocks, x fastest.
+  using Tile = std::array<VoxelBlock, 512>;
+
+  struct Hash {
+    std::size_t operator()(const Voxel& tile) const;
+  };
+
+  static std::size_t block_in_tile(const Voxel& cell) {
+    return static_cast<std::size_t>((cell.x >> 3 & 7) | (cell.y & 0x38) | (cell.z & 0x38) << 3);
+  }
+
+  bool in_last_tile(const Voxel& v) const {
+    return last_tile_ && ((v.x ^ last_.x) | (v.y ^ last_.y) | (v.z ^ last_.z)) >> 6 == 0;
+  }
+
+  void go_to_tile_of(const Voxel& cell);
+
+  std::unordered_map<Voxel, std::unique_ptr<Tile>, Hash> tiles_;
+  // The tile that was marked last, and a cell in it.
+  Tile* last_tile_ = nullptr;
+  Voxel last_;
+};
+
+}  // namespace voxlist
