@@ -11,12 +11,15 @@
 namespace voxlist {
 namespace {
 
-// A wall in the plane x = 2 m, 4 m wide, and the free space before it.
+// A wall at x = 2 m, 4 m wide and as thick as noise makes it, and the free space before it.
 OccupancyMap wall_ahead() {
   OccupancyMap map;
   Cloud cloud;
   for (float y = -2.0F; y < 2.0F; y += 0.015F)
-    for (float z = 0.5F; z < 1.5F; z += 0.015F) cloud.points.emplace_back(2.005F, y, z);
+    for (float z = 0.5F; z < 1.5F; z += 0.015F) {
+      const float noise = 0.02F * static_cast<float>(cloud.points.size() % 3) - 0.02F;
+      cloud.points.emplace_back(2.0F + noise, y, z);
+    }
   cloud.origins.assign(cloud.points.size(), {0.0F, 0.0F, 1.0F});
   add_scan(cloud, Pose3::Identity(), 100.0, map);
   return map;
@@ -106,7 +109,7 @@ TEST(Evidence, HasNearlyNoViolationsAtTruePosesAndManyAtWrongOnes) {
     const Pose2 pose{x, -0.2, 2.0 * x};
     const auto rays = choose_evidence_rays(scan_at(building, pose));
     const Evidence right = evidence.at(pose, rays);
-    EXPECT_GT(right.hits, 0.85 * right.points);
+    EXPECT_GT(right.hits, 0.8 * right.points);
     EXPECT_LT(right.misses, 0.07 * right.points);
     EXPECT_LT(right.violations, 0.05 * right.rays);
     const Evidence wrong = evidence.at(pose * Pose2{0.0, 0.0, 1.0}, rays);
