@@ -14,8 +14,8 @@ struct CoarseCell {
   std::uint32_t weight;
 };
 
-/// Bit planes of a count: weights may add up to 2^13 - 1.
-inline constexpr std::size_t kCountPlanes = 13;
+/// Bit planes of a count: weights may add up to 2^10 - 1.
+inline constexpr std::size_t kCountPlanes = 10;
 
 /// Counts of all nodes, in bit planes: node (x, y)'s count has its bit p at bit y * row_bits + x of
 /// plane p. Between the rows there are counts of no meaning.

@@ -11,7 +11,7 @@
 
 namespace voxlist {
 
-inline constexpr std::size_t kSweepPlanes = 13, kSweepDigits = 5;
+inline constexpr std::size_t kSweepPlanes = 10, kSweepDigits = 5;
 
 /// One sweep as plain numbers: counter i sums up the map's bits at digits' bits + i.
 struct SweepJob {

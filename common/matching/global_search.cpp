@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
-#include <tuple>
 
 #include "matching/bit_counters.h"
 #include "matching/turned_points.h"
@@ -16,6 +16,9 @@ namespace {
 
 constexpr std::int32_t kFactor = CoarseMap::kFactor;
 constexpr std::int32_t kGroup = TurnedPoints::kGroup;
+
+// Nodes are searched in about so many steps of their bounds.
+constexpr int kBands = 64;
 
 using WindowCounters = BitCounters<std::uint64_t, kCountPlanes>;
 
@@ -66,23 +69,22 @@ int count_of(const WindowCounters& counters, int lane) {
 // Upper bounds of all nodes.
 class Bounds {
  public:
-  Bounds(const CoarseMap& map, TurnedPoints& points, Instructions instructions)
+  Bounds(const CoarseMap& map, const TurnedPoints& points, Instructions instructions)
       : map_(map), counts_(static_cast<std::size_t>(points.groups())) {
     tbb::parallel_for(0, points.groups(), [&](std::int32_t group) {
-      points.turn(group);
       counts_[static_cast<std::size_t>(group)] =
           coarse_sweep(map, points.coarse_cells(group, map), instructions);
     });
   }
 
-  // All nodes with a bound of at least `least`, best first, in an order that depends on nothing
-  // else.
-  std::vector<Node> nodes_from(int least) const {
+  // The nodes with a bound from `least` to `most`, by group, y, x.
+  std::vector<Node> nodes_between(int least, int most) const {
     std::vector<Node> nodes;
     for (std::size_t group = 0; group < counts_.size(); ++group) {
       for (std::size_t word = 0; word < counts_[group].words; ++word) {
         const WindowCounters counters = counters_at(group, word);
-        for (std::uint64_t lanes = lanes_from(counters, least); lanes != 0; lanes &= lanes - 1) {
+        for (std::uint64_t lanes = lanes_from(counters, least) & ~lanes_from(counters, most + 1);
+             lanes != 0; lanes &= lanes - 1) {
           const int lane = std::countr_zero(lanes);
           const std::int64_t bit = static_cast<std::int64_t>(64 * word) + lane;
           const Node node{count_of(counters, lane), static_cast<std::int32_t>(group),
@@ -92,9 +94,6 @@ class Bounds {
         }
       }
     }
-    std::sort(nodes.begin(), nodes.end(), [](const Node& a, const Node& b) {
-      return std::tie(b.bound, a.group, a.y, a.x) < std::tie(a.bound, b.group, b.y, b.x);
-    });
     return nodes;
   }
 
@@ -120,53 +119,61 @@ class Bounds {
   std::vector<NodeCounts> counts_;  // by group
 };
 
-// Counts the poses of nodes one by one, 64 at a time.
+// Counts the poses of nodes, 64 at a time: for all angles of a node at once on blurred maps, then
+// for half of them, and so on, only as long as one of the translations can matter.
 class PoseCounter {
  public:
-  PoseCounter(const TolerantMap& map, const TurnedPoints& points) : map_(map), points_(points) {}
+  PoseCounter(const TolerantMap& map, TurnedPoints& points) : map_(map), points_(points) {}
 
-  // Calls visit(LatticePose) for the poses of a node that have at least `least`.
-  template <class Visit>
-  void poses_from(const Node& node, int least, const Visit& visit) const {
-    const std::int32_t x = node.x * kFactor, y = node.y * kFactor;
-    for (std::int32_t angle = node.group * kGroup; angle < (node.group + 1) * kGroup; ++angle) {
-      const WindowCounters counters = count_window(angle, x, y, least);
-      for (std::uint64_t lanes = lanes_from(counters, least); lanes != 0; lanes &= lanes - 1) {
-        const int lane = std::countr_zero(lanes);
-        visit(LatticePose{count_of(counters, lane), angle, x + lane / kFactor, y + lane % kFactor});
-      }
-    }
+  // Calls visit(LatticePose) for the poses of a node that have at least least(), which may rise
+  // from one to the next.
+  template <class Least, class Visit>
+  void poses_from(const Node& node, const Least& least, const Visit& visit) {
+    poses_from(node, 0, ~std::uint64_t{0}, least, visit);
   }
 
  private:
-  WindowCounters count_window(std::int32_t angle, std::int32_t x, std::int32_t y, int least) const {
-    if (!points_.inside(angle, x, y))
-      return count(least, [&](std::size_t i) { return points_.window(angle, i, x, y); });
-    const std::int32_t* places = points_.places(angle);
-    const std::int64_t moved = map_.place(x, y, 0);
-    return count(least, [&](std::size_t i) { return map_.window(moved + places[i]); });
+  template <class Least, class Visit>
+  void poses_from(const Node& node, std::int32_t part, std::uint64_t lanes, const Least& least,
+                  const Visit& visit) {
+    const WindowCounters counters = count(node, part, lanes, least());
+    lanes &= lanes_from(counters, least());
+    if (lanes == 0) return;
+    if (part < TurnedPoints::kFirstSingle) {
+      poses_from(node, 2 * part + 1, lanes, least, visit);
+      poses_from(node, 2 * part + 2, lanes, least, visit);
+      return;
+    }
+    const std::int32_t angle = node.group * kGroup + part - TurnedPoints::kFirstSingle;
+    for (; lanes != 0; lanes &= lanes - 1) {
+      const int lane = std::countr_zero(lanes);
+      visit(LatticePose{count_of(counters, lane), angle, node.x * kFactor + lane / kFactor,
+                        node.y * kFactor + lane % kFactor});
+    }
   }
 
-  // Stops early, below `least`, when no pose can reach it any more.
-  template <class Window>
-  WindowCounters count(int least, const Window& window) const {
-    constexpr std::size_t kCheckEvery = 128;
+  // Stops early, below `least`, when no lane can reach it any more.
+  WindowCounters count(const Node& node, std::int32_t part, std::uint64_t lanes, int least) {
+    constexpr std::size_t kCheckEvery = 64;
+    const auto places = points_.places(node.group, part);
+    const std::int64_t moved = map_.moved(node.x, node.y);
     WindowCounters counters;
-    const std::size_t n = points_.size();
-    for (std::size_t begin = 0; begin < n; begin += kCheckEvery) {
-      const std::size_t end = std::min(n, begin + kCheckEvery);
+    for (std::size_t begin = 0; begin < places.size(); begin += kCheckEvery) {
+      const std::size_t end = std::min(places.size(), begin + kCheckEvery);
       for (std::size_t i = begin; i < end; i += 8) {
-        std::uint64_t words[8];
-        for (std::size_t k = 0; k < 8; ++k) words[k] = i + k < end ? window(i + k) : 0;
+        std::uint64_t words[8] = {};
+        for (std::size_t k = 0; k < std::min<std::size_t>(8, end - i); ++k)
+          words[k] = map_.window(places[i + k], moved);
         counters.add8(words);
       }
-      if (largest(counters) + static_cast<int>(n - end) < least) return {};
+      const auto rest = static_cast<int>(places.size() - end);
+      if ((lanes & lanes_from(counters, std::max(0, least - rest))) == 0) return {};
     }
     return counters;
   }
 
   const TolerantMap& map_;
-  const TurnedPoints& points_;
+  TurnedPoints& points_;
 };
 
 // The modes of the poses so far: the best pose, then the best one that is distinct from it, and so
@@ -222,6 +229,21 @@ bool within_reach(const CoarseMap& map, const Eigen::Vector3f& p) {
          std::hypot(double(p.x()), double(p.y())) <= map.reach_m();
 }
 
+// One point of each cube: walls count by their area. Whoever stands before the scanner fills half
+// of its points, and a few cubes.
+std::vector<Eigen::Vector3f> spread(const std::vector<Eigen::Vector3f>& points) {
+  constexpr std::size_t kEnough = 300;
+  for (double cube_m = 0.4; cube_m > kFinestResolution_m && points.size() > kEnough;
+       cube_m /= 2.0) {
+    VoxelMap cubes(cube_m);
+    std::vector<Eigen::Vector3f> first;
+    std::copy_if(points.begin(), points.end(), std::back_inserter(first),
+                 [&](const auto& p) { return cubes.insert(voxel_at(p, cube_m)); });
+    if (first.size() >= kEnough) return first;
+  }
+  return points;
+}
+
 // The numbers below n in an order of which any first part is spread evenly, so that hopeless poses
 // are given up early: by their fractions of the golden ratio.
 std::vector<std::size_t> golden_order(std::size_t n) {
@@ -238,13 +260,15 @@ std::vector<std::size_t> golden_order(std::size_t n) {
 }  // namespace
 
 GlobalMap::GlobalMap(const VoxelMap& map, double finest_m, double reach_m)
-    : tolerant_(map,
-                [&] {
-                  constexpr double kMostCells = 800.0;
-                  double cell_m = finest_m;
-                  while (reach_m > kMostCells * cell_m) cell_m *= 2.0;
-                  return cell_m;
-                }()),
+    : tolerant_(
+          map,
+          [&] {
+            constexpr double kMostCells = 800.0;
+            double cell_m = finest_m;
+            while (reach_m > kMostCells * cell_m) cell_m *= 2.0;
+            return cell_m;
+          }(),
+          reach_m),
       coarse_(tolerant_, reach_m) {}
 
 std::vector<Eigen::Vector3f> GlobalMap::choose_points(std::span<const Eigen::Vector3f> scan,
@@ -258,6 +282,7 @@ std::vector<Eigen::Vector3f> GlobalMap::choose_points(std::span<const Eigen::Vec
     if (tolerant_.fill(tolerant_.layer(double(p.z()))) < kFull) telling.push_back(p);
   }
   if (double(telling.size()) < kFewestKept * double(near.size())) telling = std::move(near);
+  telling = spread(telling);
   std::vector<Eigen::Vector3f> chosen;
   const std::size_t n = std::min({most, kMostSearchPoints, telling.size()});
   for (const std::size_t i : golden_order(n)) chosen.push_back(telling[i * telling.size() / n]);
@@ -276,7 +301,7 @@ SearchResult global_search(const GlobalMap& map, std::span<const Eigen::Vector3f
   if (tolerant.empty() || turned.size() == 0) return result;
 
   const Bounds bounds(map.coarse(), turned, instructions);
-  const PoseCounter counter(tolerant, turned);
+  PoseCounter counter(tolerant, turned);
   const auto pose_of = [&](const LatticePose& pose) {
     return Pose2{(tolerant.lowest().x + pose.x + 0.5) * tolerant.cell_m(),
                  (tolerant.lowest().y + pose.y + 0.5) * tolerant.cell_m(),
@@ -284,29 +309,30 @@ SearchResult global_search(const GlobalMap& map, std::span<const Eigen::Vector3f
   };
   Modes modes(config);
   const auto look_at = [&](const Node& node) {
-    counter.poses_from(node, modes.least(), [&](const LatticePose& pose) {
-      modes.add({pose_of(pose), pose.overlap});
-    });
+    counter.poses_from(
+        node, [&] { return modes.least(); },
+        [&](const LatticePose& pose) {
+          modes.add({pose_of(pose), pose.overlap});
+        });
   };
 
-  // A first answer tells which of the other nodes can matter.
-  constexpr std::size_t kFirstNodes = 16;
-  for (int least = bounds.highest(); modes.best() == 0 && least > 0; least = least * 9 / 10) {
-    const std::vector<Node> promising = bounds.nodes_from(least);
-    for (std::size_t i = 0; i < std::min(kFirstNodes, promising.size()); ++i) look_at(promising[i]);
-  }
-  result.complete = true;
-  result.bound = modes.best();
+  // Bands of bounds, the highest first. The first few nodes give an answer that tells which of the
+  // others can matter.
+  const int band = 1 + static_cast<int>(turned.size()) / kBands;
+  int top = bounds.highest();
   std::int64_t nodes = 0;
-  for (const Node& node : bounds.nodes_from(modes.least())) {
-    if (node.bound < modes.least()) break;
-    if (nodes == config.max_nodes) {
-      result.complete = false;
-      result.bound = node.bound;
-      break;
+  result.complete = true;
+  for (; top >= modes.least() && result.complete; top -= band) {
+    for (const Node& node : bounds.nodes_between(std::max(modes.least(), top - band + 1), top)) {
+      if (node.bound < modes.least()) continue;
+      if (nodes >= config.max_nodes && modes.best() > 0) {
+        result.complete = false;
+        result.bound = top;
+        break;
+      }
+      ++nodes;
+      look_at(node);
     }
-    ++nodes;
-    look_at(node);
   }
   result.bound = std::max(result.bound, modes.best());
   result.certified = modes.best() > 0 && result.bound == modes.best();

@@ -25,8 +25,9 @@ class GlobalMap {
   const CoarseMap& coarse() const { return coarse_; }
 
   /// The points of a scan (base, m) that tell poses apart: within reach, and not in layers that the
-  /// map fills (floor, ceiling) unless nothing else is there. At most `most` and kMostSearchPoints,
-  /// spread evenly over the scan, and so is any first part of them.
+  /// map fills (floor, ceiling) unless nothing else is there. One of each cube of 0.4 m, or smaller
+  /// ones if those are few: surfaces count by their area, however many points lie on the near ones.
+  /// At most `most` and kMostSearchPoints, spread evenly, and so is any first part of them.
   std::vector<Eigen::Vector3f> choose_points(std::span<const Eigen::Vector3f> scan,
                                              std::size_t most) const;
 
@@ -39,11 +40,12 @@ class GlobalMap {
 /// tolerant map, on the lattice of its cells and of angles that move no point by more than a cell.
 ///
 /// Nodes of 8 x 8 translations at 8 angles are bounded all at once, by a bit-sliced sweep over the
-/// coarse map; then they are searched pose by pose, the most promising first, as long as their
-/// bounds can matter. Exact and deterministic: the same bits with any number of threads and any
-/// instructions. config.max_nodes bounds the nodes that are searched pose by pose after a first
-/// few. Throws std::invalid_argument for more than kMostSearchPoints or a point beyond the map's
-/// reach: GlobalMap::choose_points gives neither.
+/// coarse map. The most promising first, as long as their bounds can matter, their translations are
+/// counted on blurred maps for all eight angles, then for half of them, down to single poses. Exact
+/// and deterministic: the same bits with any number of threads and any instructions.
+/// config.max_nodes bounds the nodes that are searched pose by pose, unless these hit nothing.
+/// Throws std::invalid_argument for more than kMostSearchPoints or a point beyond the map's reach:
+/// GlobalMap::choose_points gives neither.
 SearchResult global_search(const GlobalMap& map, std::span<const Eigen::Vector3f> points,
                            const SearchConfig& config,
                            Instructions instructions = best_instructions());

@@ -1,6 +1,7 @@
 #include "matching/tolerant_map.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -34,16 +35,15 @@ std::int32_t voxels_in_cell(const VoxelMap& map, double cell_m) {
 
 }  // namespace
 
-TolerantMap::TolerantMap(const VoxelMap& map, double cell_m) : cell_m_(cell_m) {
+TolerantMap::TolerantMap(const VoxelMap& map, double cell_m, double reach_m)
+    : cell_m_(cell_m), reach_m_(reach_m) {
   if (map.empty()) return;
-  constexpr std::int32_t kMost = std::numeric_limits<std::int32_t>::max() - kWindow;
-  // In double: a map that stretches over the whole lattice has more cells than 64 bits count.
-  for (measure(map, cell_m_); double(size_x_) * size_y_ * size_z_ > kMost; cell_m_ *= 2.0)
-    measure(map, 2.0 * cell_m_);
-  columns_.assign(static_cast<std::size_t>(place(0, 0, size_z_)) + kWindow, 0);
+  constexpr double kMostBytes = 1 << 30;
+  for (measure(map, cell_m_); bytes() > kMostBytes; cell_m_ *= 2.0) measure(map, 2.0 * cell_m_);
+  bytes_.assign(static_cast<std::size_t>(bytes()), 0);
   mark_cells(map);
   measure_fill();
-  make_columns();
+  for (std::int32_t blur = 1; blur < kBlurs; ++blur) make_blurred(blur);
 }
 
 std::int32_t TolerantMap::layer(double z_m) const {
@@ -60,13 +60,22 @@ void TolerantMap::measure(const VoxelMap& map, double cell_m) {
   size_x_ = last(high.x) + 1 - lowest_.x + kWindow;
   size_y_ = last(high.y) + 1 - lowest_.y + kWindow;
   size_z_ = floor_div(last(high.z), kCellsInLayer) + 1 - lowest_.z;
+  // A node's last window begins up to a window behind the reach.
+  margin_ = (static_cast<std::int32_t>(std::ceil(reach_m_ / cell_m)) / kWindow + 3) * kWindow;
+  rows_ = (size_y_ + 2 * margin_) / kWindow + 1;
+  row_bytes_ = size_x_ + 2 * margin_;
 }
+
+// In double: a map that stretches over the whole lattice has more cells than 64 bits count.
+double TolerantMap::bytes() const { return (double(kBlurs) * size_z_ * rows_ + 2.0) * row_bytes_; }
 
 void TolerantMap::mark_cells(const VoxelMap& map) {
   const std::int32_t factor = voxels_in_cell(map, cell_m_);
   const auto mark = [this](std::int32_t x, std::int32_t y, std::int32_t z) {
-    columns_[static_cast<std::size_t>(
-        place(x - lowest_.x, y - lowest_.y, floor_div(z, kCellsInLayer) - lowest_.z))] = 1;
+    const Place at =
+        place(x - lowest_.x, y - lowest_.y, floor_div(z, kCellsInLayer) - lowest_.z, 0);
+    std::uint8_t& byte = bytes_[static_cast<std::size_t>(at.byte)];
+    byte = static_cast<std::uint8_t>(byte | 1U << at.shift);
   };
   map.for_each_voxel([&](const Voxel& v) {
     const Voxel c{floor_div(v.x, factor), floor_div(v.y, factor), floor_div(v.z, factor)};
@@ -81,44 +90,46 @@ void TolerantMap::mark_cells(const VoxelMap& map) {
 }
 
 void TolerantMap::measure_fill() {
-  const auto area = static_cast<std::size_t>(size_x_) * static_cast<std::size_t>(size_y_);
-  std::vector<std::uint8_t> plan(area);
+  const auto layer_bytes = static_cast<std::size_t>(rows_) * static_cast<std::size_t>(row_bytes_);
+  const auto cells = [](const std::uint8_t* bytes, std::size_t n) {
+    std::int64_t sum = 0;
+    for (std::size_t i = 0; i < n; ++i) sum += std::popcount(bytes[i]);
+    return sum;
+  };
+  std::vector<std::uint8_t> plan(layer_bytes);
   for (std::int32_t z = 0; z < size_z_; ++z) {
-    const std::uint8_t* layer = columns_.data() + place(0, 0, z);
-    std::int64_t cells = 0;
-    for (std::size_t i = 0; i < area; ++i) {
-      cells += layer[i];
-      plan[i] |= layer[i];
-    }
-    fill_.push_back(static_cast<double>(cells));
-    occupied_cells_ += cells;
+    const std::uint8_t* layer = bytes_.data() + layer_bytes * static_cast<std::size_t>(z);
+    for (std::size_t i = 0; i < layer_bytes; ++i) plan[i] |= layer[i];
+    const std::int64_t occupied = cells(layer, layer_bytes);
+    fill_.push_back(static_cast<double>(occupied));
+    occupied_cells_ += occupied;
   }
-  const auto ground = static_cast<double>(std::count(plan.begin(), plan.end(), 1));
+  const auto ground = static_cast<double>(cells(plan.data(), layer_bytes));
   for (double& fill : fill_) fill /= ground;
 }
 
-void TolerantMap::make_columns() {
-  for (std::int32_t z = 0; z < size_z_; ++z) {
-    for (std::int32_t y = size_y_ - 2; y >= 0; --y) {
-      std::uint8_t* row = columns_.data() + place(0, y, z);
-      const std::uint8_t* next = row + size_x_;
-      for (std::int32_t x = 0; x < size_x_; ++x)
-        row[x] = static_cast<std::uint8_t>(row[x] | next[x] << 1);
-    }
-  }
+// From the map of the blur before: the OR of its cells here and half a blur farther, on x and y.
+void TolerantMap::make_blurred(std::int32_t blur) {
+  const std::int32_t step = 1 << (blur - 1);
+  const auto row = static_cast<std::size_t>(row_bytes_);
+  const std::size_t bytes =
+      row * static_cast<std::size_t>(rows_) * static_cast<std::size_t>(size_z_);
+  const std::uint8_t* from = bytes_.data() + bytes * static_cast<std::size_t>(blur - 1);
+  std::uint8_t* to = bytes_.data() + bytes * static_cast<std::size_t>(blur);
+  // Rows follow on each other, with margins between them: what is read past an end is free.
+  std::vector<std::uint8_t> along_x(bytes + row, 0);
+  for (std::size_t i = 0; i + static_cast<std::size_t>(step) < bytes; ++i)
+    along_x[i] = from[i] | from[i + static_cast<std::size_t>(step)];
+  for (std::size_t i = 0; i < bytes; ++i)
+    to[i] = static_cast<std::uint8_t>(along_x[i] | along_x[i] >> step |
+                                      along_x[i + row] << (kWindow - step));
 }
 
 std::uint64_t TolerantMap::window_anywhere(std::int32_t x, std::int32_t y, std::int32_t z) const {
-  if (z < 0 || z >= size_z_) return 0;
-  if (holds(x, y)) return window(place(x, y, z));
-  std::uint64_t bits = 0;
-  for (std::int32_t i = std::max(0, -x); i < std::min(kWindow, size_x_ - x); ++i) {
-    for (std::int32_t k = std::max(0, -y); k < std::min(kWindow, size_y_ - y); ++k) {
-      const std::uint8_t column = columns_[static_cast<std::size_t>(place(x + i, y + k, z))];
-      bits |= std::uint64_t{column & 1U} << (8 * i + k);
-    }
-  }
-  return bits;
+  const std::int32_t far = margin_ - 2 * kWindow;
+  const bool near =
+      z >= 0 && z < size_z_ && x >= -far && y >= -far && x < size_x_ + far && y < size_y_ + far;
+  return near ? window(place(x, y, z, 0), 0) : 0;
 }
 
 }  // namespace voxlist

@@ -1,6 +1,7 @@
 #include "matching/turned_points.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
 
@@ -9,7 +10,55 @@ namespace {
 
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
+// So that rounding never makes a point move by more than a cell.
+constexpr double kSlack = 1.001;
+
 }  // namespace
+
+// Turns points by the angles of a group.
+class TurnedPoints::Turn {
+ public:
+  Turn(const TurnedPoints& points, std::int32_t group) {
+    for (std::int32_t a = 0; a < kGroup; ++a) {
+      const double yaw_rad = points.yaw_rad(group * kGroup + a);
+      const auto i = static_cast<std::size_t>(a);
+      cosines_[i] = static_cast<float>(std::cos(yaw_rad) / points.map_.cell_m());
+      sines_[i] = static_cast<float>(std::sin(yaw_rad) / points.map_.cell_m());
+    }
+  }
+
+  Cells cells(const Eigen::Vector2f& p) const {
+    Cells cells;
+    for (std::size_t a = 0; a < cells.size(); ++a) {
+      cells[a] = {static_cast<std::int32_t>(std::floor(cosines_[a] * p.x() - sines_[a] * p.y())),
+                  static_cast<std::int32_t>(std::floor(sines_[a] * p.x() + cosines_[a] * p.y()))};
+    }
+    return cells;
+  }
+
+  struct Box {
+    Cell low, high;
+  };
+
+  // Of the cells of each part.
+  static std::array<Box, kParts> boxes(const Cells& cells) {
+    std::array<Box, kParts> boxes;
+    for (std::size_t part = kParts; part-- > 0;) {
+      if (part >= std::size_t{kFirstSingle}) {
+        const Cell& cell = cells[part - std::size_t{kFirstSingle}];
+        boxes[part] = {cell, cell};
+      } else {
+        const Box &a = boxes[2 * part + 1], &b = boxes[2 * part + 2];
+        boxes[part] = {{std::min(a.low.x, b.low.x), std::min(a.low.y, b.low.y)},
+                       {std::max(a.high.x, b.high.x), std::max(a.high.y, b.high.y)}};
+      }
+    }
+    return boxes;
+  }
+
+ private:
+  std::array<float, kGroup> cosines_, sines_;
+};
 
 TurnedPoints::TurnedPoints(const TolerantMap& map, std::span<const Eigen::Vector3f> points)
     : map_(map) {
@@ -21,43 +70,19 @@ TurnedPoints::TurnedPoints(const TolerantMap& map, std::span<const Eigen::Vector
     layers_.push_back(z);
     radius_m = std::max(radius_m, std::hypot(double(p.x()), double(p.y())));
   }
-  groups_ = static_cast<std::int32_t>(std::ceil(kTwoPi * radius_m / map.cell_m() / kGroup));
-  cells_.resize(index(angles(), 0));
-  places_.resize(cells_.size());
-  boxes_.resize(static_cast<std::size_t>(angles()));
+  groups_ =
+      static_cast<std::int32_t>(std::ceil(kSlack * kTwoPi * radius_m / map.cell_m() / kGroup));
+  places_.resize(static_cast<std::size_t>(groups_));
 }
 
 double TurnedPoints::yaw_rad(std::int32_t angle) const { return kTwoPi * angle / angles(); }
 
-void TurnedPoints::turn(std::int32_t group) {
-  for (std::int32_t angle = group * kGroup; angle < (group + 1) * kGroup; ++angle) {
-    const auto c = static_cast<float>(std::cos(yaw_rad(angle)) / map_.cell_m());
-    const auto s = static_cast<float>(std::sin(yaw_rad(angle)) / map_.cell_m());
-    constexpr std::int16_t kFar = 32767;
-    Box box{{kFar, kFar}, {-kFar, -kFar}};
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-      const float x = points_[i].x(), y = points_[i].y();
-      const Cell cell{static_cast<std::int16_t>(std::floor(c * x - s * y)),
-                      static_cast<std::int16_t>(std::floor(s * x + c * y))};
-      box.low = {std::min(box.low.x, cell.x), std::min(box.low.y, cell.y)};
-      box.high = {std::max(box.high.x, cell.x), std::max(box.high.y, cell.y)};
-      cells_[index(angle, i)] = cell;
-      places_[index(angle, i)] = static_cast<std::int32_t>(map_.place(cell.x, cell.y, layers_[i]));
-    }
-    boxes_[static_cast<std::size_t>(angle)] = box;
-  }
-}
-
 std::vector<CoarseCell> TurnedPoints::coarse_cells(std::int32_t group, const CoarseMap& map) const {
+  const Turn turn(*this, group);
   std::vector<std::int64_t> bits;
   bits.reserve(points_.size());
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    Cell low = cells_[index(group * kGroup, i)], high = low;
-    for (std::int32_t a = 1; a < kGroup; ++a) {
-      const Cell& cell = cells_[index(group * kGroup + a, i)];
-      low = {std::min(low.x, cell.x), std::min(low.y, cell.y)};
-      high = {std::max(high.x, cell.x), std::max(high.y, cell.y)};
-    }
+    const auto [low, high] = turn.boxes(turn.cells(points_[i]))[0];
     // Beyond 16 cells from the coarse cell's start at the node's last translation.
     constexpr std::int32_t kFactor = CoarseMap::kFactor;
     const std::int32_t x = floor_div(low.x, kFactor), y = floor_div(low.y, kFactor);
@@ -71,6 +96,27 @@ std::vector<CoarseCell> TurnedPoints::coarse_cells(std::int32_t group, const Coa
     ++cells.back().weight;
   }
   return cells;
+}
+
+std::span<const TolerantMap::Place> TurnedPoints::places(std::int32_t group, std::int32_t part) {
+  const auto& places = places_[static_cast<std::size_t>(group)];
+  if (places.empty()) make_places(group);
+  return std::span(places).subspan(static_cast<std::size_t>(part) * size(), size());
+}
+
+void TurnedPoints::make_places(std::int32_t group) {
+  auto& places = places_[static_cast<std::size_t>(group)];
+  places.resize(std::size_t{kParts} * size());
+  const Turn turn(*this, group);
+  for (std::size_t i = 0; i < size(); ++i) {
+    const auto boxes = turn.boxes(turn.cells(points_[i]));
+    for (std::size_t part = 0; part < boxes.size(); ++part) {
+      const auto& [low, high] = boxes[part];
+      const int moves = std::max(high.x - low.x, high.y - low.y);
+      places[part * size() + i] =
+          map_.place(low.x, low.y, layers_[i], std::bit_width(static_cast<unsigned>(moves)));
+    }
+  }
 }
 
 }  // namespace voxlist

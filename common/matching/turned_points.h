@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -10,11 +11,17 @@
 
 namespace voxlist {
 
-/// Points of a scan, to be turned by every angle of a lattice.
+/// Points of a scan, to be turned by every angle of a lattice. Angles come in groups of eight, and
+/// a group in parts: part 0 is all of it, parts 1 and 2 are its halves, 3 to 6 its quarters, 7 to
+/// 14 single angles; part p is halved into 2 p + 1 and 2 p + 2.
 class TurnedPoints {
  public:
-  /// Angles of a node.
+  /// Angles of a group.
   static constexpr std::int32_t kGroup = CoarseMap::kFactor;
+  static constexpr std::int32_t kParts = 2 * kGroup - 1;
+
+  /// The first part that is a single angle.
+  static constexpr std::int32_t kFirstSingle = kGroup - 1;
 
   /// Points (base, m) outside the map's layers are left out: they hit nothing.
   TurnedPoints(const TolerantMap& map, std::span<const Eigen::Vector3f> points);
@@ -27,46 +34,30 @@ class TurnedPoints {
   std::int32_t groups() const { return groups_; }
   double yaw_rad(std::int32_t angle) const;
 
-  /// Turns all points by the angles of a group. Groups may be turned by different threads.
-  void turn(std::int32_t group);
-
-  /// The points of a group in coarse cells. Only after turn().
+  /// The points of a group in coarse cells. Safe from several threads.
   std::vector<CoarseCell> coarse_cells(std::int32_t group, const CoarseMap& map) const;
 
-  /// The window of point i at an angle, moved by (x, y). Only after turn().
-  std::uint64_t window(std::int32_t angle, std::size_t i, std::int32_t x, std::int32_t y) const {
-    const Cell& cell = cells_[index(angle, i)];
-    return map_.window_anywhere(cell.x + x, cell.y + y, layers_[i]);
-  }
-
-  /// Whether all points' windows lie within the map at an angle and translation.
-  bool inside(std::int32_t angle, std::int32_t x, std::int32_t y) const {
-    const Box& box = boxes_[static_cast<std::size_t>(angle)];
-    return map_.holds(box.low.x + x, box.low.y + y) && map_.holds(box.high.x + x, box.high.y + y);
-  }
-
-  /// Places of the points' windows at an angle: TolerantMap::place(x, y, 0) is to be added.
-  const std::int32_t* places(std::int32_t angle) const { return &places_[index(angle, 0)]; }
+  /// Where the points' windows lie at translation (0, 0), on maps blurred as far as each point
+  /// moves within the part: a window tells at which translations the point may hit for one of the
+  /// part's angles, and exactly so for a single one. Use from one thread.
+  std::span<const TolerantMap::Place> places(std::int32_t group, std::int32_t part);
 
  private:
   struct Cell {
-    std::int16_t x, y;
+    std::int32_t x, y;
   };
-  struct Box {
-    Cell low, high;
-  };
+  using Cells = std::array<Cell, kGroup>;
 
-  std::size_t index(std::int32_t angle, std::size_t i) const {
-    return points_.size() * static_cast<std::size_t>(angle) + i;
-  }
+  // Of a point, at a group's angles.
+  class Turn;
+
+  void make_places(std::int32_t group);
 
   const TolerantMap& map_;
   std::vector<Eigen::Vector2f> points_;
   std::vector<std::int32_t> layers_;
   std::int32_t groups_;
-  std::vector<Cell> cells_;           // relative to the base's own, by angle and point
-  std::vector<std::int32_t> places_;  // the same, as places
-  std::vector<Box> boxes_;            // by angle
+  std::vector<std::vector<TolerantMap::Place>> places_;  // by group; by part and point
 };
 
 }  // namespace voxlist

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 #include "instruction_sets.h"
@@ -29,7 +30,8 @@ std::vector<CoarseCell> random_cells(const CoarseMap& map, unsigned seed, std::u
   std::mt19937 random(seed);
   std::uniform_int_distribution<std::int32_t> place(-2, 2);
   std::vector<CoarseCell> cells;
-  for (int i = 0; i < 40; ++i) {
+  const auto n = std::min(40U, ((1U << kCountPlanes) - 1) / weight);
+  for (unsigned i = 0; i < n; ++i) {
     const std::int64_t bit = map.bit(random() % 2 == 0, random() % 2 == 0, place(random),
                                      place(random), static_cast<std::int32_t>(random() % 2));
     cells.push_back({bit, 1 + static_cast<std::uint32_t>(random()) % weight});
@@ -58,7 +60,7 @@ int count_in(const NodeCounts& counts, std::size_t bit) {
 void expect_counts_of_a_plain_loop(std::int32_t size_x, std::int32_t size_y, std::uint32_t weight) {
   SCOPED_TRACE(testing::Message() << size_x << " x " << size_y << ", weights to " << weight);
   const auto seed = static_cast<unsigned>(size_x);
-  const TolerantMap tolerant(random_map(seed, size_x, size_y), 0.25);
+  const TolerantMap tolerant(random_map(seed, size_x, size_y), 0.25, 4.0);
   const CoarseMap map(tolerant, 4.0);
   ASSERT_EQ(map.size_x(), size_x);
   ASSERT_EQ(map.size_y(), size_y);
@@ -91,22 +93,22 @@ TEST(CoarseSweep, CountsWeightsBeyondItsDigits) {
 }
 
 TEST(CoarseSweep, CountsUpToTheLastPlane) {
-  const CoarseMap map(TolerantMap(random_map(1, 20, 5), 0.25), 4.0);
+  const CoarseMap map(TolerantMap(random_map(1, 20, 5), 0.25, 4.0), 4.0);
   const std::int64_t bit = map.bit(true, true, 0, 0, 0);
   for (const Instructions instructions : instruction_sets()) {
-    const NodeCounts counts = coarse_sweep(map, std::vector<CoarseCell>{{bit, 8191}}, instructions);
-    EXPECT_EQ(count_in(counts, 0), 8191);  // cell (0, 0, 0) of the map is occupied
+    const NodeCounts counts = coarse_sweep(map, std::vector<CoarseCell>{{bit, 1023}}, instructions);
+    EXPECT_EQ(count_in(counts, 0), 1023);  // cell (0, 0, 0) of the map is occupied
   }
 }
 
 TEST(CoarseSweep, CountsNothingForNoCells) {
-  const CoarseMap map(TolerantMap(random_map(1, 20, 5), 0.25), 4.0);
+  const CoarseMap map(TolerantMap(random_map(1, 20, 5), 0.25, 4.0), 4.0);
   for (const Instructions instructions : instruction_sets())
     for (const std::uint64_t word : coarse_sweep(map, {}, instructions).planes) EXPECT_EQ(word, 0u);
 }
 
 TEST(CoarseMap, GridsHoldTheCellsAheadUpToTheirWidth) {
-  const TolerantMap tolerant(random_map(5, 9, 6), 0.25);
+  const TolerantMap tolerant(random_map(5, 9, 6), 0.25, 4.0);
   const CoarseMap map(tolerant, 4.0);
   for (const bool wide_x : {false, true})
     for (const bool wide_y : {false, true})

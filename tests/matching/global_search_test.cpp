@@ -57,7 +57,6 @@ TEST(GlobalSearch, BoundsAreNotBelowAnyPoseOfTheirNodes) {
     const AllOverlaps all(map, world.scan);
     TurnedPoints points(map.tolerant(), world.scan);
     for (std::int32_t group = 0; group < points.groups(); ++group) {
-      points.turn(group);
       const NodeCounts counts =
           coarse_sweep(map.coarse(), points.coarse_cells(group, map.coarse()), best_instructions());
       for (std::int32_t x = 0; x < map.coarse().size_x(); ++x)
@@ -188,7 +187,7 @@ TEST(GlobalSearch, PointsOutsideTheLayersChangeNothing) {
 TEST(GlobalSearch, FindsAScanThatLooksInFromTheMapsEdge) {
   // A pose from which most points, turned by some other angle, would lie far outside the map.
   const LatticeWorld world = lattice_world(3);
-  const Voxel corner = TolerantMap(world.map, 0.04).lowest();
+  const Voxel corner = TolerantMap(world.map, 0.04, kReach_m).lowest();
   const Pose2 truth{corner.x * 0.04 + 0.02, corner.y * 0.04 + 0.02, 2.0};
   std::vector<Eigen::Vector3f> scan;
   std::int64_t count = 0;
@@ -261,12 +260,25 @@ TEST_F(ChoosePoints, KeepsFloorAndCeilingWhenNothingElseIsThere) {
 
 TEST_F(ChoosePoints, KeepsEachOfFewPointsOnce) {
   const GlobalMap map(voxels_, 0.04, 4.0);
-  for (const std::size_t n : {1u, 2u, 50u, 333u}) {
+  for (const std::size_t n : {1u, 2u, 50u, 300u}) {
     auto points = map.choose_points(wall(n), n);
     std::sort(points.begin(), points.end(),
               [](const auto& a, const auto& b) { return a.y() < b.y(); });
     EXPECT_EQ(points, wall(n));
   }
+}
+
+TEST_F(ChoosePoints, WhoStandsNearIsNotCountedByTheirPoints) {
+  std::vector<Eigen::Vector3f> scan;
+  for (int y = 0; y < 200; ++y)
+    for (int z = 5; z < 45; ++z)
+      scan.emplace_back(2.0F, -2.0F + 0.02F * float(y), 0.02F * float(z));
+  for (int i = 0; i < 5000; ++i) scan.emplace_back(0.3F, 0.2F + 0.00004F * float(i), 0.5F);
+  const auto points = GlobalMap(voxels_, 0.04, 4.0).choose_points(scan, 1000);
+  const auto near =
+      std::count_if(points.begin(), points.end(), [](const auto& p) { return p.x() < 1.0F; });
+  EXPECT_GE(points.size(), 300u);
+  EXPECT_LT(double(near), 0.1 * double(points.size()));
 }
 
 TEST_F(ChoosePoints, SpreadsAnyFirstPartOfThemEvenly) {
