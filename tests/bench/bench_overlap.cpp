@@ -96,6 +96,7 @@ void by_voxel_map(Counts& counts) {
 void by_sweep(Counts& counts) { sweep_overlaps(inputs().grid, inputs().scan, kWindow, counts); }
 
 void run(benchmark::State& state, void (*kernel)(Counts&)) {
+  state.SetLabel(scene().name);
   Counts counts(static_cast<std::size_t>(kPoses)), expected = counts;
   by_voxel_map(expected);
   for (auto _ : state) kernel(counts);

@@ -75,6 +75,7 @@ Levels& local() {
 }
 
 void run(benchmark::State& state, const Level& level) {
+  state.SetLabel(scene().name);
   Weighing weighing;
   for (auto _ : state) benchmark::DoNotOptimize(level.step(weighing));
   const auto particles = static_cast<double>(level.particles.size());

@@ -5,17 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "bench/figures.h"
+
 namespace voxlist {
 
-/// One measured number.
-struct Measure {
-  std::string benchmark;
-  std::string name;
-  double value = 0.0;
-};
-
 /// Shows results on the terminal as Google Benchmark does, and keeps them for ratios and the CSV
-/// file.
+/// file. A benchmark's label is its scene.
 class Report : public benchmark::ConsoleReporter {
  public:
   /// Colours only on a terminal.
@@ -31,15 +26,13 @@ class Report : public benchmark::ConsoleReporter {
   void ratio_to(double reference, const std::string& source, const std::string& benchmark,
                 const std::string& name);
 
-  /// Appends all measures as rows program,scene,benchmark,measure,value,machine,commit. Throws
-  /// std::runtime_error.
-  void append_csv(const std::string& file, const std::string& program,
-                  const std::string& scene) const;
+  /// What was measured, and the ratios.
+  const std::vector<Figure>& figures() const { return figures_; }
 
  private:
-  const Measure* find(const std::string& benchmark, const std::string& name) const;
+  const Figure* find(const std::string& benchmark, const std::string& name) const;
 
-  std::vector<Measure> measures_;
+  std::vector<Figure> figures_;
 };
 
 /// The main of a benchmark program: Google Benchmark's options and --csv FILE, then `add` registers

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace voxlist {
+
+/// One measured number.
+struct Figure {
+  std::string scene;      ///< where it was measured
+  std::string benchmark;  ///< what ran
+  std::string measure;    ///< what the number is, with its unit
+  double value = 0.0;
+};
+
+/// Takes --csv FILE out of a program's arguments.
+std::optional<std::string> take_csv_option(int& argc, char** argv);
+
+/// Appends rows program,scene,benchmark,measure,value,machine,commit to a table, which it begins
+/// where there is none. Throws std::runtime_error.
+void append_csv(const std::string& file, const std::string& program,
+                const std::vector<Figure>& figures);
+
+}  // namespace voxlist
