@@ -11,10 +11,10 @@ namespace {
 
 class ParticleFilterMatcher : public Matcher {
  public:
-  ParticleFilterMatcher(const VoxelMap& map, const MatcherConfig& config)
+  ParticleFilterMatcher(const OccupancyMap& map, const MatcherConfig& config)
       : config_(config),
-        filter_(map, {.final_factor = final_factor(map, config)}),
-        box_(map, {.resolution_m = config.resolution_m, .levels = 0}),
+        filter_(map.occupied, {.final_factor = final_factor(map.occupied, config)}),
+        box_(map.occupied, {.resolution_m = config.resolution_m, .levels = 0}),
         surfels_(map) {}
 
   Match match(const Cloud& cloud, const std::optional<PoseWindow>& window) override {
@@ -54,7 +54,7 @@ class ParticleFilterMatcher : public Matcher {
 
 }  // namespace
 
-std::unique_ptr<Matcher> make_filter_matcher(const VoxelMap& map, const MatcherConfig& config) {
+std::unique_ptr<Matcher> make_filter_matcher(const OccupancyMap& map, const MatcherConfig& config) {
   return std::make_unique<ParticleFilterMatcher>(map, config);
 }
 

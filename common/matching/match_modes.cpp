@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "matching/refine.h"
 #include "matching/significance.h"
 
 namespace voxlist {
@@ -39,7 +38,7 @@ bool holds(const std::vector<MatchMode>& modes, const Pose2& pose) {
                      [&](const MatchMode& mode) { return same_mode(mode, pose); });
 }
 
-std::vector<MatchMode> refined(const SurfelMap& surfels, std::span<const Eigen::Vector3f> points,
+std::vector<MatchMode> refined(const SurfelMap& surfels, const RayPoints& points,
                                const std::vector<MatchMode>& candidates) {
   std::vector<MatchMode> modes;
   for (MatchMode mode : candidates) {
@@ -52,8 +51,7 @@ std::vector<MatchMode> refined(const SurfelMap& surfels, std::span<const Eigen::
   return modes;
 }
 
-std::vector<MatchMode> refined_by_fit(const SurfelMap& surfels,
-                                      std::span<const Eigen::Vector3f> points,
+std::vector<MatchMode> refined_by_fit(const SurfelMap& surfels, const RayPoints& points,
                                       std::vector<MatchMode> candidates) {
   for (MatchMode& mode : candidates) mode.fit = refine(surfels, points, mode.pose).inlier_share;
   std::stable_sort(candidates.begin(), candidates.end(),

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "matching/matcher.h"
+#include "matching/refine.h"
 #include "matching/surfels.h"
 
 // What all engines do with the poses that they have found.
@@ -20,12 +21,11 @@ std::vector<MatchMode> candidates_of(const SearchResult& found, std::size_t poin
 bool holds(const std::vector<MatchMode>& modes, const Pose2& pose);
 
 /// Refines candidates and keeps the distinct ones, in their order.
-std::vector<MatchMode> refined(const SurfelMap& surfels, std::span<const Eigen::Vector3f> points,
+std::vector<MatchMode> refined(const SurfelMap& surfels, const RayPoints& points,
                                const std::vector<MatchMode>& candidates);
 
 /// The same, best fit first.
-std::vector<MatchMode> refined_by_fit(const SurfelMap& surfels,
-                                      std::span<const Eigen::Vector3f> points,
+std::vector<MatchMode> refined_by_fit(const SurfelMap& surfels, const RayPoints& points,
                                       std::vector<MatchMode> candidates);
 
 /// How near the second mode comes to the first (Match::rivalry).

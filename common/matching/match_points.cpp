@@ -2,63 +2,149 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
-#include "matching/surfels.h"
-#include "voxels/voxel_map.h"
+#include "voxels/voxel.h"
 
 namespace voxlist {
 namespace {
 
-using Points = std::vector<Eigen::Vector3f>;
+using Indices = std::vector<std::uint32_t>;
 
-double horizontal_range_m(const Eigen::Vector3f& p) {
-  return std::hypot(double(p.x()), double(p.y()));
+// Numbers cells 0, 1, 2, ... in the order in which they are met.
+class CellNumbers {
+ public:
+  explicit CellNumbers(std::size_t most) {
+    std::size_t size = 64;
+    while (size < 2 * most) size *= 2;
+    slots_.resize(size);
+  }
+
+  std::uint32_t number(std::uint64_t key) {
+    const std::size_t mask = slots_.size() - 1;
+    const std::uint64_t hash = key * 0x9e3779b97f4a7c15u;
+    std::size_t slot = (hash ^ (hash >> 32)) & mask;
+    while (slots_[slot].number != 0 && slots_[slot].key != key) slot = (slot + 1) & mask;
+    if (slots_[slot].number == 0) slots_[slot] = {key, ++count_};
+    return slots_[slot].number - 1;
+  }
+
+ private:
+  struct Slot {
+    std::uint64_t key = 0;
+    std::uint32_t number = 0;
+  };
+  std::vector<Slot> slots_;
+  std::uint32_t count_ = 0;
+};
+
+// Ascending by layer, then row. Coordinates fit 21 bits a finest voxel apart within the lattice.
+std::uint64_t key_of(const Voxel& v) {
+  const auto part = [](std::int32_t value) {
+    return static_cast<std::uint64_t>(value + (1 << 20)) & 0x1fffff;
+  };
+  return part(v.z) << 42 | part(v.y) << 21 | part(v.x);
 }
 
 bool lexicographic(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
   return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
 }
 
-// The points that are within range and do not belong to a flat-lying surface; all within range when
-// these are few.
-Points informative_points(std::span<const Eigen::Vector3f> points,
-                          const MatchPointsConfig& config) {
-  constexpr double kFlat = 0.9;         // |z| of the normal: slopes up to 26 deg count as flat
-  constexpr double kFewestKept = 0.05;  // of all points
-  Points in_range;
-  VoxelMap voxels;
-  for (const auto& p : points) {
-    if (!in_lattice(p, voxels.resolution_m()) || horizontal_range_m(p) > config.max_range_m)
-      continue;
-    in_range.push_back(p);
-    voxels.insert(voxel_at(p, voxels.resolution_m()));
+// Sums over the points of a cube, in finest voxels from the cube's lowest: whole numbers, whose
+// sums know no order.
+struct Spread {
+  std::int64_t n = 0, x = 0, y = 0, z = 0, xx = 0, xy = 0, yy = 0, zz = 0;
+
+  void add(std::int64_t vx, std::int64_t vy, std::int64_t vz) {
+    ++n;
+    x += vx, y += vy, z += vz;
+    xx += vx * vx, xy += vx * vy, yy += vy * vy, zz += vz * vz;
   }
-  const SurfelMap surfels(voxels, {.cell_m = config.flat_cube_m});
-  Points upright;
-  for (const auto& p : in_range) {
-    const Surfel* surfel = surfels.find(p.cast<double>());
-    if (!surfel || std::abs(surfel->normal.z()) < kFlat) upright.push_back(p);
+
+  // Whether the points lie flat: wide both ways over the ground (a line of points on a wall is
+  // not), and thin in height. Slopes up to about 22 deg count as flat.
+  bool flat() const {
+    constexpr std::int64_t kFewest = 6;
+    constexpr double kFlatness = 2.5, kThickest = 3.0;
+    if (n < kFewest) return false;
+    const auto variance = [this](std::int64_t ab, std::int64_t a, std::int64_t b) {
+      const auto count = static_cast<double>(n);
+      return (static_cast<double>(ab) - static_cast<double>(a * b) / count) / count;
+    };
+    const double vx = variance(xx, x, x), vy = variance(yy, y, y), vxy = variance(xy, x, y);
+    const double narrow = (vx + vy) / 2.0 - std::hypot((vx - vy) / 2.0, vxy);
+    const double height = variance(zz, z, z);
+    return height < kThickest * kThickest && narrow > kFlatness * kFlatness * (height + 1.0 / 12.0);
   }
-  const auto fewest = static_cast<std::size_t>(kFewestKept * static_cast<double>(in_range.size()));
-  return upright.size() > fewest ? upright : in_range;
+};
+
+Indices within_range(std::span<const Eigen::Vector3f> points, double max_range_m) {
+  Indices in_range;
+  const auto range2 = static_cast<float>(max_range_m * max_range_m);
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
+    if (in_lattice(points[i], kFinestResolution_m) && points[i].head<2>().squaredNorm() <= range2)
+      in_range.push_back(i);
+  }
+  return in_range;
 }
 
-// One point of each cube: the lexicographically first, sorted by cube.
-std::map<std::int32_t, Points> one_per_cube(std::span<const Eigen::Vector3f> points,
-                                            const MatchPointsConfig& config) {
-  std::vector<std::pair<Voxel, Eigen::Vector3f>> in_cubes;
-  in_cubes.reserve(points.size());
-  for (const auto& p : points) {
-    in_cubes.emplace_back(voxel_at(p, config.spacing_m), p);
+// The points that do not belong to a flat-lying surface; all when these are few.
+Indices upright(std::span<const Eigen::Vector3f> points, const Indices& in_range,
+                double flat_cube_m) {
+  constexpr double kFewestKept = 0.05;  // of all points
+  const auto edge =
+      std::max(1, static_cast<std::int32_t>(std::lround(flat_cube_m / kFinestResolution_m)));
+  CellNumbers numbers(in_range.size());
+  std::vector<Spread> cubes;
+  Indices cube_of;
+  cube_of.reserve(in_range.size());
+  for (const std::uint32_t i : in_range) {
+    const Voxel v = voxel_at(points[i], kFinestResolution_m);
+    const Voxel cube{floor_div(v.x, edge), floor_div(v.y, edge), floor_div(v.z, edge)};
+    const std::uint32_t number = numbers.number(key_of(cube));
+    if (number == cubes.size()) cubes.emplace_back();
+    cubes[number].add(v.x - cube.x * edge, v.y - cube.y * edge, v.z - cube.z * edge);
+    cube_of.push_back(number);
   }
-  std::sort(in_cubes.begin(), in_cubes.end(), [](const auto& a, const auto& b) {
-    return a.first != b.first ? a.first < b.first : lexicographic(a.second, b.second);
-  });
-  std::map<std::int32_t, Points> layers;
-  for (std::size_t i = 0; i < in_cubes.size(); ++i) {
-    if (i == 0 || in_cubes[i].first != in_cubes[i - 1].first)
-      layers[in_cubes[i].first.z].push_back(in_cubes[i].second);
+  std::vector<bool> flat;
+  for (const Spread& cube : cubes) flat.push_back(cube.flat());
+  Indices kept;
+  for (std::size_t i = 0; i < in_range.size(); ++i) {
+    if (!flat[cube_of[i]]) kept.push_back(in_range[i]);
+  }
+  const auto fewest = static_cast<std::size_t>(kFewestKept * static_cast<double>(in_range.size()));
+  return kept.size() > fewest ? kept : in_range;
+}
+
+struct InCell {
+  std::uint64_t key;
+  std::uint32_t index;
+};
+
+// One point of each cell, the lexicographically first, by layer, row and column.
+std::vector<InCell> one_per_cell(std::span<const Eigen::Vector3f> points, const Indices& from,
+                                 double spacing_m) {
+  CellNumbers numbers(from.size());
+  std::vector<InCell> cells;
+  for (const std::uint32_t i : from) {
+    const std::uint64_t key = key_of(voxel_at(points[i], spacing_m));
+    const std::uint32_t number = numbers.number(key);
+    if (number == cells.size())
+      cells.push_back({key, i});
+    else if (lexicographic(points[i], points[cells[number].index]))
+      cells[number].index = i;
+  }
+  std::sort(cells.begin(), cells.end(), [](auto& a, auto& b) { return a.key < b.key; });
+  return cells;
+}
+
+// Cells of one layer each.
+std::vector<std::span<const InCell>> layers_of(std::span<const InCell> cells) {
+  std::vector<std::span<const InCell>> layers;
+  for (std::size_t from = 0; from < cells.size();) {
+    std::size_t to = from;
+    while (to < cells.size() && cells[to].key >> 42 == cells[from].key >> 42) ++to;
+    layers.push_back(cells.subspan(from, to - from));
+    from = to;
   }
   return layers;
 }
@@ -66,10 +152,10 @@ std::map<std::int32_t, Points> one_per_cube(std::span<const Eigen::Vector3f> poi
 // The largest cap on a layer's points that keeps the total within max_points, and no layer far
 // above the usual one: walls give each layer a line of points, a floor or a ceiling gives its own a
 // whole area.
-std::size_t layer_cap(const std::map<std::int32_t, Points>& layers, std::size_t max_points) {
+std::size_t layer_cap(const std::vector<std::span<const InCell>>& layers, std::size_t max_points) {
   constexpr double kAboveUsual = 1.5;
   std::vector<std::size_t> counts;
-  for (const auto& [z, points] : layers) counts.push_back(points.size());
+  for (const auto& layer : layers) counts.push_back(layer.size());
   if (counts.empty()) return 0;
   std::nth_element(counts.begin(), counts.begin() + static_cast<std::ptrdiff_t>(counts.size() / 2),
                    counts.end());
@@ -79,28 +165,49 @@ std::size_t layer_cap(const std::map<std::int32_t, Points>& layers, std::size_t 
   while (low < high) {
     const std::size_t cap = (low + high + 1) / 2;
     std::size_t total = 0;
-    for (const auto& [z, points] : layers) total += std::min(points.size(), cap);
+    for (const auto& layer : layers) total += std::min(layer.size(), cap);
     (total <= max_points ? low : high) = total <= max_points ? cap : cap - 1;
   }
   return low;
 }
 
+Indices chosen(std::span<const Eigen::Vector3f> points, const MatchPointsConfig& config) {
+  const Indices in_range = within_range(points, config.max_range_m);
+  const auto cells =
+      one_per_cell(points, upright(points, in_range, config.flat_cube_m), config.spacing_m);
+  const auto layers = layers_of(cells);
+  const std::size_t cap = layer_cap(layers, static_cast<std::size_t>(config.max_points));
+  Indices indices;
+  for (const auto& layer : layers) {
+    const std::size_t kept = std::min(layer.size(), cap);
+    for (std::size_t i = 0; i < kept; ++i) indices.push_back(layer[i * layer.size() / kept].index);
+  }
+  return indices;
+}
+
+MatchPoints taken(const RayPoints& scan, const Indices& indices) {
+  MatchPoints result;
+  for (const std::uint32_t i : indices) {
+    const Eigen::Vector3f& p = scan.points[i];
+    result.points.push_back(p);
+    if (!scan.origins.empty()) result.origins.push_back(scan.origins[i]);
+    result.radius_m = std::max(result.radius_m, std::hypot(double(p.x()), double(p.y())));
+  }
+  return result;
+}
+
 }  // namespace
 
-MatchPoints choose_match_points(std::span<const Eigen::Vector3f> points,
-                                const MatchPointsConfig& config) {
-  const auto layers = one_per_cube(informative_points(points, config), config);
-  const std::size_t cap = layer_cap(layers, static_cast<std::size_t>(config.max_points));
-  MatchPoints chosen;
-  for (const auto& [z, layer] : layers) {
-    const std::size_t kept = std::min(layer.size(), cap);
-    for (std::size_t i = 0; i < kept; ++i) {
-      const auto& p = layer[i * layer.size() / kept];
-      chosen.points.push_back(p);
-      chosen.radius_m = std::max(chosen.radius_m, horizontal_range_m(p));
-    }
-  }
-  return chosen;
+MatchPoints choose_match_points(const RayPoints& scan, const MatchPointsConfig& config) {
+  return taken(scan, chosen(scan.points, config));
+}
+
+MatchPoints some_of(const MatchPoints& points, std::size_t most) {
+  const std::size_t kept = std::min(points.points.size(), most);
+  Indices indices;
+  for (std::size_t i = 0; i < kept; ++i)
+    indices.push_back(static_cast<std::uint32_t>(i * points.points.size() / kept));
+  return taken(points, indices);
 }
 
 }  // namespace voxlist

@@ -12,7 +12,7 @@ namespace {
 class SearchMatcher : public Matcher {
  public:
   SearchMatcher(const OccupancyMap& map, const MatcherConfig& config)
-      : surfels_(map.occupied), global_(map, surfels_, config), window_(map, surfels_, config) {}
+      : surfels_(map), global_(map, surfels_, config), window_(map, surfels_, config) {}
 
   Match match(const Cloud& scan, const std::optional<PoseWindow>& window) override {
     return window ? window_.match(scan, *window) : global_.match(scan);
@@ -28,7 +28,7 @@ class SearchMatcher : public Matcher {
 
 std::unique_ptr<Matcher> make_matcher(const OccupancyMap& map, const MatcherConfig& config) {
   if (config.engine == "search") return std::make_unique<SearchMatcher>(map, config);
-  if (config.engine == "particle_filter") return make_filter_matcher(map.occupied, config);
+  if (config.engine == "particle_filter") return make_filter_matcher(map, config);
   throw std::invalid_argument("engine = \"" + config.engine +
                               "\": must be search or particle_filter");
 }

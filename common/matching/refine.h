@@ -1,9 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <span>
 
 #include "geometry/pose.h"
+#include "matching/match_points.h"
 #include "matching/surfels.h"
 
 namespace voxlist {
@@ -20,21 +20,30 @@ struct RefineConfig {
   double start_sigma_rad = 0.02;
 };
 
-struct Refinement {
-  Pose2 pose;
-  /// Covariance of (x, y, yaw): m^2, m rad, rad^2.
-  Eigen::Matrix3d covariance;
+/// A refined pose, with what was moved: (x, y, yaw) or (x, y, z, roll, pitch, yaw).
+template <class Pose, int kDof>
+struct RefinementOf {
+  Pose pose;
+  /// Covariance of the moved coordinates, in their order: m^2, m rad, rad^2. The turns of a spatial
+  /// pose are about map's axes.
+  Eigen::Matrix<double, kDof, kDof> covariance;
   /// Points that lie on a surface of the map within 2 scale_m, as a share of all points, 0..1.
   double inlier_share = 0.0;
   /// Root mean square distance of those points from their surfaces (m).
   double residual_m = 0.0;
   bool converged = false;
 };
+using Refinement = RefinementOf<Pose2, 3>;
+using SpatialRefinement = RefinementOf<Pose3, 6>;
 
-/// Moves a pose to where the scan's points lie best on the map's surfaces: point-to-plane
-/// Gauss-Newton with Geman-McClure weights. `start` must be within about half a surfel's edge of
-/// the answer.
-Refinement refine(const SurfelMap& surfels, std::span<const Eigen::Vector3f> points,
-                  const Pose2& start, const RefineConfig& config = {});
+/// Moves a pose to where the scan's points lie best on those sides of the map's surfaces that their
+/// rays could see: point-to-plane Gauss-Newton with Geman-McClure weights. `start` must be within
+/// about half a surfel's edge of the answer.
+Refinement refine(const SurfelMap& surfels, const RayPoints& scan, const Pose2& start,
+                  const RefineConfig& config = {});
+
+/// The same with height, roll and pitch: needs points on floors or ceilings too.
+SpatialRefinement refine(const SurfelMap& surfels, const RayPoints& scan, const Pose3& start,
+                         const RefineConfig& config = {});
 
 }  // namespace voxlist

@@ -1,97 +1,102 @@
 #include "matching/surfels.h"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
-#include <optional>
+#include <limits>
+
+#include "matching/surfel_fit.h"
 
 namespace voxlist {
 namespace {
 
-// Sums over a cube's voxels, coordinates counted from the cube's lowest voxel.
-struct Moments {
-  std::int64_t n = 0;
-  std::int64_t x = 0, y = 0, z = 0;
-  std::int64_t xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
+constexpr std::size_t kFirstDirectorySize = 1024;
 
-  void add(std::int64_t vx, std::int64_t vy, std::int64_t vz) {
-    ++n;
-    x += vx, y += vy, z += vz;
-    xx += vx * vx, xy += vx * vy, xz += vx * vz;
-    yy += vy * vy, yz += vy * vz, zz += vz * vz;
-  }
-
-  Eigen::Vector3d mean() const {
-    return Eigen::Vector3d(double(x), double(y), double(z)) / double(n);
-  }
-
-  Eigen::Matrix3d covariance() const {
-    Eigen::Matrix3d products;
-    products << double(xx), double(xy), double(xz), double(xy), double(yy), double(yz), double(xz),
-        double(yz), double(zz);
-    return products / double(n) - mean() * mean().transpose();
-  }
-};
-
-std::optional<Surfel> fit_plane(const Voxel& cell, std::int32_t edge, const Moments& moments,
-                                double resolution_m, const SurfelConfig& config) {
-  if (moments.n < config.min_voxels) return std::nullopt;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(moments.covariance());
-  const auto deviation_m = [&](int i) {
-    return std::sqrt(std::max(0.0, axes.eigenvalues()(i))) * resolution_m;
+// Cubes are at least a block: their coordinates fit 20 bits (kVoxelLimit / 8).
+std::uint64_t pack(const Voxel& v) {
+  const auto part = [](std::int32_t value) {
+    return static_cast<std::uint64_t>(static_cast<std::uint32_t>(value + (1 << 20))) & 0x1fffff;
   };
-  if (deviation_m(0) > config.max_thickness_m) return std::nullopt;
-  // The lattice itself makes a plane one voxel thick: without it a perfect plane would have
-  // infinite flatness.
-  const double lattice_m = resolution_m / std::sqrt(12.0);
-  if (deviation_m(1) < config.min_flatness * std::hypot(deviation_m(0), lattice_m))
-    return std::nullopt;
-  const Eigen::Vector3d lowest(cell.x * edge, cell.y * edge, cell.z * edge);
-  return Surfel{(lowest + moments.mean() + Eigen::Vector3d::Constant(0.5)) * resolution_m,
-                axes.eigenvectors().col(0)};
+  return part(v.x) | part(v.y) << 21 | part(v.z) << 42;
 }
 
 }  // namespace
 
-SurfelMap::SurfelMap(const VoxelMap& map, const SurfelConfig& config) {
-  const double block_m = kBlockEdge * map.resolution_m();
-  const auto edge =
-      kBlockEdge * std::max(1, static_cast<std::int32_t>(std::lround(config.cell_m / block_m)));
-  cell_m_ = edge * map.resolution_m();
-  const std::int32_t blocks = edge / kBlockEdge;
-  std::vector<std::pair<Voxel, Moments>> cubes;
-  for (std::size_t i = 0; i < map.block_count(); ++i) {
-    const Voxel& block = map.block_position(i);
-    const Voxel cell{floor_div(block.x, blocks), floor_div(block.y, blocks),
-                     floor_div(block.z, blocks)};
-    const auto [found, added] = cells_.try_emplace(cell, static_cast<std::uint32_t>(cubes.size()));
-    if (added) cubes.emplace_back(cell, Moments{});
-    Moments& moments = cubes[found->second].second;
-    VoxelMap::visit_block(block, map.block(i), [&](const Voxel& v) {
-      moments.add(v.x - cell.x * edge, v.y - cell.y * edge, v.z - cell.z * edge);
-    });
+SurfelMap::SurfelMap(const OccupancyMap& map, const SurfelConfig& config)
+    : map_(map), config_(config), directory_(kFirstDirectorySize) {
+  const double block_m = kBlockEdge * map.occupied.resolution_m();
+  blocks_ = std::max(1, static_cast<std::int32_t>(std::lround(config.cell_m / block_m)));
+  cell_m_ = blocks_ * block_m;
+}
+
+const Surfel* SurfelMap::find(const Eigen::Vector3d& point, const Eigen::Vector3d& origin) const {
+  const Cube& cube = cube_at(voxel_at(point, cell_m_));
+  const Surfel* nearest = nullptr;
+  double least_m = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < cube.count; ++i) {
+    const Surfel& side = cube.sides[i];
+    const double off_m = std::abs(side.normal.dot(point - side.mean));
+    if (off_m >= least_m || !side.faces(origin, point)) continue;
+    nearest = &side;
+    least_m = off_m;
   }
-  for (const auto& [cell, moments] : cubes) {
-    if (const auto surfel = fit_plane(cell, edge, moments, map.resolution_m(), config)) {
-      cells_[cell] = static_cast<std::uint32_t>(surfels_.size());
-      surfels_.push_back(*surfel);
-    } else {
-      cells_.erase(cell);
+  return nearest;
+}
+
+void SurfelMap::update(const ChangedBlocks& changed) {
+  for (const Voxel& block : changed.occupied) {
+    const std::uint32_t index = directory_[slot_of(pack(cube_of(block)))];
+    if (index != 0) cubes_[index - 1].fitted = false;
+  }
+}
+
+Voxel SurfelMap::cube_of(const Voxel& block) const {
+  return {floor_div(block.x, blocks_), floor_div(block.y, blocks_), floor_div(block.z, blocks_)};
+}
+
+std::size_t SurfelMap::slot_of(std::uint64_t key) const {
+  const std::size_t mask = directory_.size() - 1;
+  const std::uint64_t hash = key * 0x9e3779b97f4a7c15u;
+  std::size_t slot = (hash ^ (hash >> 32)) & mask;
+  while (directory_[slot] != 0 && cubes_[directory_[slot] - 1].key != key) slot = (slot + 1) & mask;
+  return slot;
+}
+
+SurfelMap::Cube& SurfelMap::cube_at(const Voxel& position) const {
+  const std::uint64_t key = pack(position);
+  std::size_t slot = slot_of(key);
+  if (directory_[slot] == 0) {
+    if (2 * (cubes_.size() + 1) > directory_.size()) {
+      grow();
+      slot = slot_of(key);
+    }
+    cubes_.emplace_back().key = key;
+    directory_[slot] = static_cast<std::uint32_t>(cubes_.size());
+  }
+  Cube& cube = cubes_[directory_[slot] - 1];
+  if (!cube.fitted) fit(position, cube);
+  return cube;
+}
+
+void SurfelMap::grow() const {
+  directory_.assign(2 * directory_.size(), 0);
+  for (std::uint32_t i = 0; i < cubes_.size(); ++i) directory_[slot_of(cubes_[i].key)] = i + 1;
+}
+
+void SurfelMap::fit(const Voxel& position, Cube& cube) const {
+  const Voxel first{position.x * blocks_, position.y * blocks_, position.z * blocks_};
+  const Voxel lowest{first.x * kBlockEdge, first.y * kBlockEdge, first.z * kBlockEdge};
+  std::vector<Voxel> voxels;
+  voxels.reserve(512);
+  for (std::int32_t z = 0; z < blocks_; ++z) {
+    for (std::int32_t y = 0; y < blocks_; ++y) {
+      for (std::int32_t x = 0; x < blocks_; ++x) {
+        const VoxelBlock* block = map_.occupied.find_block({first.x + x, first.y + y, first.z + z});
+        if (block)
+          VoxelMap::visit_block({x, y, z}, *block, [&](const Voxel& v) { voxels.push_back(v); });
+      }
     }
   }
-}
-
-const Surfel* SurfelMap::find(const Eigen::Vector3d& point) const {
-  const auto found = cells_.find(voxel_at(point, cell_m_));
-  return found == cells_.end() ? nullptr : &surfels_[found->second];
-}
-
-std::size_t SurfelMap::Hash::operator()(const Voxel& v) const {
-  const auto part = [](std::int32_t value) {
-    return static_cast<std::uint64_t>(static_cast<std::uint32_t>(value));
-  };
-  const std::uint64_t key = part(v.x) * 0x9e3779b97f4a7c15u ^ part(v.y) * 0xc2b2ae3d27d4eb4fu ^
-                            part(v.z) * 0x165667b19e3779f9u;
-  return static_cast<std::size_t>(key ^ (key >> 29));
+  cube.count = fit_surfels(map_, lowest, voxels, config_, cube.sides);
+  cube.fitted = true;
 }
 
 }  // namespace voxlist

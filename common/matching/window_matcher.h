@@ -4,11 +4,13 @@
 
 #include "matching/matcher.h"
 #include "matching/surfels.h"
+#include "matching/window_map.h"
 #include "voxels/occupancy_map.h"
 
 namespace voxlist {
 
-/// Finds a scan within a window of poses: tracking. Both maps must outlive it.
+/// Finds a scan within a window of poses: tracking. Counts every pose of the window's lattice, then
+/// refines the best. Both maps must outlive it.
 class WindowMatcher {
  public:
   WindowMatcher(const OccupancyMap& map, const SurfelMap& surfels, const MatcherConfig& config);
@@ -16,12 +18,13 @@ class WindowMatcher {
   Match match(const Cloud& scan, const PoseWindow& window);
 
  private:
-  double overlap_at(const Pose2& pose, const MatchPoints& scan) const;
+  const WindowMap& map_for(double radius_m, const PoseWindow& window);
 
   const OccupancyMap& map_;
   const SurfelMap& surfels_;
   const MatcherConfig config_;
-  std::optional<SearchMap> window_map_;
+  const double cell_m_;
+  std::optional<WindowMap> window_map_;
 };
 
 }  // namespace voxlist

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "matching/match_points.h"
+#include "matching/search.h"
+#include "matching/window_map.h"
+
+namespace voxlist {
+
+/// Counts the overlap of every pose of a window's lattice: translations by a cell, angles by a cell
+/// at the farthest point's range. So the best is the best; the same for any number of threads.
+/// `map` must hold needed_ground().
+SearchResult search_window(const WindowMap& map, double cell_m, const MatchPoints& points,
+                           const PoseWindow& window, const SearchConfig& config);
+
+/// Where the points can come to lie at the window's poses.
+CellRectangle needed_ground(double cell_m, double radius_m, const PoseWindow& window);
+
+}  // namespace voxlist
