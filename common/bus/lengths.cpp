@@ -88,7 +88,10 @@ Fault check_lengths(const map_octree_t& message) {
 Fault check_lengths(const map_request_t&) { return Fault::kNone; }
 
 Fault check_lengths(const map_update_t& message) {
-  return Lengths().array(message.n_blocks, message.blocks, 76).fault();
+  return Lengths()
+      .array(message.n_blocks, message.blocks, 76)
+      .array(message.n_passed_blocks, message.passed_blocks, 76)
+      .fault();
 }
 
 Fault check_lengths(const mirror_state_t& message) {

@@ -21,12 +21,34 @@ constexpr std::int64_t kLateness_us = 10'000'000;
 constexpr double kMinResolution_m = 1e-3;
 constexpr double kMaxResolution_m = 10.0;
 
-auto order(const voxel_block_t& block) { return std::tie(block.z, block.y, block.x); }
+void put_in_order(std::vector<voxel_block_t>& blocks) {
+  const auto order = [](const voxel_block_t& b) { return std::tie(b.z, b.y, b.x); };
+  std::ranges::sort(blocks, [&](const auto& a, const auto& b) { return order(a) < order(b); });
+}
+
+// The blocks from `begin` on and before `end`, as far as there are any.
+std::vector<voxel_block_t> slice(const std::vector<voxel_block_t>& blocks, std::ptrdiff_t begin,
+                                 std::ptrdiff_t end) {
+  const auto at = [&](std::ptrdiff_t i) {
+    return blocks.begin() + std::clamp<std::ptrdiff_t>(i, 0, std::ssize(blocks));
+  };
+  return {at(begin), at(end)};
+}
+
+MapResolution resolution_of(const map_update_t& m) {
+  return {m.resolution_m, m.passed_resolution_m};
+}
 
 bool is_sane_coordinate(std::int32_t c) { return std::abs(std::int64_t{c}) < kMaxBlockCoordinate; }
 
 bool is_sane_block(const voxel_block_t& block) {
   return is_sane_coordinate(block.x) && is_sane_coordinate(block.y) && is_sane_coordinate(block.z);
+}
+
+// Written so that NaN fails.
+bool is_sane(const MapResolution& resolution) {
+  return resolution.occupied_m >= kMinResolution_m && resolution.passed_m <= kMaxResolution_m &&
+         resolution.occupied_m <= resolution.passed_m;
 }
 
 bool is_sane(const map_update_t& m) {
@@ -35,20 +57,24 @@ bool is_sane(const map_update_t& m) {
   const bool chunks =
       m.n_chunks >= 1 && m.n_chunks <= kMaxChunks && m.chunk >= 0 && m.chunk < m.n_chunks;
   const bool nothing_changed = m.base_version == m.version;
-  // Written so that NaN fails.
-  const bool resolution = m.resolution_m >= kMinResolution_m && m.resolution_m <= kMaxResolution_m;
-  return is_sane_utime(m.utime) && versions && chunks && resolution &&
-         std::ssize(m.blocks) <= (nothing_changed ? 0 : kBlocksPerChunk) &&
-         std::ranges::all_of(m.blocks, is_sane_block);
+  const std::ptrdiff_t n_blocks = std::ssize(m.blocks) + std::ssize(m.passed_blocks);
+  return is_sane_utime(m.utime) && versions && chunks && is_sane(resolution_of(m)) &&
+         n_blocks <= (nothing_changed ? 0 : kBlocksPerChunk) &&
+         std::ranges::all_of(m.blocks, is_sane_block) &&
+         std::ranges::all_of(m.passed_blocks, is_sane_block);
 }
 
 MapChange header_of(const map_update_t& m) {
-  return {m.utime, m.map_id, m.version, m.base_version, m.resolution_m, {}};
+  return {m.utime, m.map_id, m.version, m.base_version, resolution_of(m), {}};
 }
 
 bool same_header(const MapChange& a, const MapChange& b) {
   return a.utime_us == b.utime_us && a.map_id == b.map_id && a.version == b.version &&
          a.base_version == b.base_version;
+}
+
+void append(const std::vector<voxel_block_t>& more, std::vector<voxel_block_t>& blocks) {
+  blocks.insert(blocks.end(), more.begin(), more.end());
 }
 
 bool came_late(std::int64_t utime_us, std::int64_t newest_us) {
@@ -58,17 +84,18 @@ bool came_late(std::int64_t utime_us, std::int64_t newest_us) {
 }  // namespace
 
 std::vector<map_update_t> split_map(MapChange change) {
-  std::ranges::sort(change.blocks,
-                    [](const auto& a, const auto& b) { return order(a) < order(b); });
-  const auto n_blocks = std::ssize(change.blocks);
+  auto& [occupied, passed] = change.blocks;
+  put_in_order(occupied);
+  put_in_order(passed);
+  const std::ptrdiff_t n_occupied = std::ssize(occupied);
+  const std::ptrdiff_t n_blocks = n_occupied + std::ssize(passed);
   const auto n_chunks =
       std::max<std::ptrdiff_t>(1, (n_blocks + kBlocksPerChunk - 1) / kBlocksPerChunk);
   if (n_chunks > kMaxChunks) throw std::length_error("map of more than 3.9 million blocks");
 
   std::vector<map_update_t> messages;
   for (std::ptrdiff_t chunk = 0; chunk < n_chunks; ++chunk) {
-    const auto begin = change.blocks.begin() + chunk * kBlocksPerChunk;
-    const auto end = change.blocks.begin() + std::min((chunk + 1) * kBlocksPerChunk, n_blocks);
+    const std::ptrdiff_t begin = chunk * kBlocksPerChunk, end = begin + kBlocksPerChunk;
     map_update_t& message = messages.emplace_back();
     message.utime = change.utime_us;
     message.map_id = change.map_id;
@@ -76,9 +103,12 @@ std::vector<map_update_t> split_map(MapChange change) {
     message.base_version = change.base_version;
     message.chunk = static_cast<std::int32_t>(chunk);
     message.n_chunks = static_cast<std::int32_t>(n_chunks);
-    message.resolution_m = change.resolution_m;
-    message.n_blocks = static_cast<std::int32_t>(end - begin);
-    message.blocks.assign(begin, end);
+    message.resolution_m = change.resolution.occupied_m;
+    message.passed_resolution_m = change.resolution.passed_m;
+    message.blocks = slice(occupied, begin, end);
+    message.n_blocks = static_cast<std::int32_t>(message.blocks.size());
+    message.passed_blocks = slice(passed, begin - n_occupied, end - n_occupied);
+    message.n_passed_blocks = static_cast<std::int32_t>(message.passed_blocks.size());
   }
   return messages;
 }
@@ -125,7 +155,7 @@ bool MapAssembler::is_stale(const MapChange& change) const {
 bool MapAssembler::builds_on_held(const MapChange& change) const {
   if (change.is_whole()) return true;
   return held_ && held_->map_id == change.map_id && held_->version == change.base_version &&
-         held_->resolution_m == change.resolution_m;
+         held_->resolution == change.resolution;
 }
 
 // The assembly that the message belongs to, perhaps a new one; nullptr: it contradicts its other
@@ -142,7 +172,7 @@ MapAssembler::Assembly* MapAssembler::assembly_of(const map_update_t& message) {
     return &fresh;
   }
   const bool agrees = std::ssize(found->chunks) == message.n_chunks &&
-                      found->change.resolution_m == message.resolution_m;
+                      found->change.resolution == header.resolution;
   return agrees ? &*found : nullptr;
 }
 
@@ -152,9 +182,9 @@ void MapAssembler::put(const map_update_t& message, Assembly& assembly) {
     ++counters_["duplicate"];
     return;
   }
-  chunk = message.blocks;
+  chunk = MapBlocks{message.blocks, message.passed_blocks};
   --assembly.missing;
-  pending_blocks_ += message.blocks.size();
+  pending_blocks_ += chunk->size();
 }
 
 std::vector<MapChange> MapAssembler::take_ready() {
@@ -173,11 +203,12 @@ std::vector<MapChange> MapAssembler::take_ready() {
 MapChange MapAssembler::take(std::list<Assembly>::iterator ready) {
   MapChange change = std::move(ready->change);
   for (const auto& chunk : ready->chunks) {
-    change.blocks.insert(change.blocks.end(), chunk->begin(), chunk->end());
+    append(chunk->occupied, change.blocks.occupied);
+    append(chunk->passed, change.blocks.passed);
   }
   pending_blocks_ -= change.blocks.size();
   assemblies_.erase(ready);
-  held_ = Held{change.utime_us, change.map_id, change.version, change.resolution_m};
+  held_ = Held{change.utime_us, change.map_id, change.version, change.resolution};
   return change;
 }
 

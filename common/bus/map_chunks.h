@@ -13,8 +13,8 @@ namespace voxlist {
 /// base_version of a whole map.
 inline constexpr std::int64_t kWholeMap = -1;
 
-/// Blocks in one message: 60 kB, which fits one UDP packet, so that nothing is lost but whole
-/// chunks.
+/// Blocks in one message, of both kinds together: 60 kB, which fits one UDP packet, so that nothing
+/// is lost but whole chunks.
 inline constexpr std::int32_t kBlocksPerChunk = 780;
 
 /// Chunks of one change: 3.9 million blocks, 300 MB.
@@ -23,20 +23,34 @@ inline constexpr std::int32_t kMaxChunks = 5000;
 /// Block coordinates are within +-this: 84 km at 0.02 m, what a VoxelMap takes (kVoxelLimit / 8).
 inline constexpr std::int32_t kMaxBlockCoordinate = 1 << 19;
 
-/// What turns one version of the voxel map into another: the new contents of the blocks that
-/// changed (all zero bits: the block is empty now), or the whole map, or nothing but a newer time.
+/// Edges of a map's voxels, and of its coarser cells that rays passed.
+struct MapResolution {
+  double occupied_m = 0.0;
+  double passed_m = 0.0;
+
+  bool operator==(const MapResolution&) const = default;
+};
+
+/// Blocks of a map: of its voxels, and of its cells that rays passed.
+struct MapBlocks {
+  std::vector<voxel_block_t> occupied, passed;
+
+  std::size_t size() const { return occupied.size() + passed.size(); }
+};
+
+/// What turns one version of the map into another: the new contents of the blocks that changed (all
+/// zero bits: the block is empty now), or the whole map, or nothing but a newer time.
 struct MapChange {
   /// Time of the newest cloud that the mapper has decided on, microseconds.
   std::int64_t utime_us = 0;
   std::int64_t map_id = 0;
   /// Keyframes in the map after the change.
   std::int64_t version = 0;
-  /// Version before it; kWholeMap: replaces whatever was; `version`: nothing changed, `blocks` is
-  /// empty.
+  /// Version before it; kWholeMap: replaces whatever was; `version`: nothing changed, there are no
+  /// blocks.
   std::int64_t base_version = kWholeMap;
-  /// Voxel edge.
-  double resolution_m = 0.0;
-  std::vector<voxel_block_t> blocks;
+  MapResolution resolution;
+  MapBlocks blocks;
 
   bool is_whole() const { return base_version == kWholeMap; }
 };
@@ -63,7 +77,7 @@ class MapAssembler {
     std::int64_t utime_us;
     std::int64_t map_id;
     std::int64_t version;
-    double resolution_m;
+    MapResolution resolution;
   };
   const std::optional<Held>& held() const { return held_; }
 
@@ -75,7 +89,7 @@ class MapAssembler {
   // A change of which chunks are still missing, or that builds on a version not held yet.
   struct Assembly {
     MapChange change;
-    std::vector<std::optional<std::vector<voxel_block_t>>> chunks;
+    std::vector<std::optional<MapBlocks>> chunks;
     std::int32_t missing;
   };
 

@@ -1,6 +1,8 @@
 #include "bus/map_convert.h"
 
 #include <bit>
+#include <vector>
+#include <voxlist/voxel_block_t.hpp>
 
 namespace voxlist {
 namespace {
@@ -22,19 +24,6 @@ VoxelBlock bits_of(const voxel_block_t& message) {
   return block;
 }
 
-}  // namespace
-
-std::vector<voxel_block_t> to_messages(const VoxelMap& map,
-                                       const std::vector<Voxel>& block_positions) {
-  std::vector<voxel_block_t> messages;
-  messages.reserve(block_positions.size());
-  for (const Voxel& position : block_positions) {
-    if (const VoxelBlock* block = map.find_block(position))
-      messages.push_back(to_message(position, *block));
-  }
-  return messages;
-}
-
 std::vector<voxel_block_t> to_messages(const VoxelMap& map) {
   std::vector<voxel_block_t> messages;
   messages.reserve(map.block_count());
@@ -43,14 +32,45 @@ std::vector<voxel_block_t> to_messages(const VoxelMap& map) {
   return messages;
 }
 
-bool apply(const MapChange& change, VoxelMap& map) {
+std::vector<voxel_block_t> to_messages(const VoxelMap& map, const std::vector<Voxel>& positions) {
+  std::vector<voxel_block_t> messages;
+  messages.reserve(positions.size());
+  for (const Voxel& position : positions) {
+    if (const VoxelBlock* block = map.find_block(position))
+      messages.push_back(to_message(position, *block));
+  }
+  return messages;
+}
+
+bool set_blocks(const std::vector<voxel_block_t>& blocks, VoxelMap& map) {
+  bool changed = false;
+  for (const voxel_block_t& block : blocks)
+    changed |= map.set_block({block.x, block.y, block.z}, bits_of(block));
+  return changed;
+}
+
+}  // namespace
+
+MapResolution resolution_of(const OccupancyMap& map) {
+  return {map.occupied.resolution_m(), map.passed.resolution_m()};
+}
+
+MapBlocks to_messages(const OccupancyMap& map) {
+  return {to_messages(map.occupied), to_messages(map.passed)};
+}
+
+MapBlocks to_messages(const OccupancyMap& map, const ChangedBlocks& positions) {
+  return {to_messages(map.occupied, positions.occupied), to_messages(map.passed, positions.passed)};
+}
+
+bool apply(const MapChange& change, OccupancyMap& map) {
   bool changed = false;
   if (change.is_whole()) {
-    changed = !map.empty();
-    map = VoxelMap(change.resolution_m);
+    changed = !map.occupied.empty() || !map.passed.empty();
+    map = {VoxelMap(change.resolution.occupied_m), VoxelMap(change.resolution.passed_m)};
   }
-  for (const voxel_block_t& block : change.blocks)
-    changed |= map.set_block({block.x, block.y, block.z}, bits_of(block));
+  changed |= set_blocks(change.blocks.occupied, map.occupied);
+  changed |= set_blocks(change.blocks.passed, map.passed);
   return changed;
 }
 

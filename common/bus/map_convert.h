@@ -1,24 +1,22 @@
 #pragma once
 
-#include <vector>
-#include <voxlist/voxel_block_t.hpp>
-
 #include "bus/map_chunks.h"
-#include "voxels/voxel_map.h"
+#include "voxels/occupancy_map.h"
 
 namespace voxlist {
 
-/// The map's blocks at these positions, as they are now. Positions that the map does not have are
-/// left out.
-std::vector<voxel_block_t> to_messages(const VoxelMap& map,
-                                       const std::vector<Voxel>& block_positions);
+MapResolution resolution_of(const OccupancyMap& map);
 
 /// All blocks of the map.
-std::vector<voxel_block_t> to_messages(const VoxelMap& map);
+MapBlocks to_messages(const OccupancyMap& map);
+
+/// The map's blocks at these positions, as they are now. Positions that the map does not have are
+/// left out.
+MapBlocks to_messages(const OccupancyMap& map, const ChangedBlocks& positions);
 
 /// Brings a map to the change's version: a whole change replaces it, others set their blocks.
-/// Returns whether a voxel changed. Precondition: the change builds on the map, as MapAssembler
-/// sees to.
-bool apply(const MapChange& change, VoxelMap& map);
+/// Returns whether a voxel or a passed cell changed. Precondition: the change builds on the map, as
+/// MapAssembler sees to.
+bool apply(const MapChange& change, OccupancyMap& map);
 
 }  // namespace voxlist

@@ -129,7 +129,8 @@ void walk(WireReader& in, const map_octree_t*) {
 void walk(WireReader& in, const map_request_t*) { in.skip(kInt64 + 2 * kInt32); }
 
 void walk(WireReader& in, const map_update_t*) {
-  in.skip(4 * kInt64 + 2 * kInt32 + kDouble);
+  in.skip(4 * kInt64 + 2 * kInt32 + 2 * kDouble);
+  in.array(kVoxelBlock);
   in.array(kVoxelBlock);
 }
 

@@ -127,11 +127,11 @@ void MapperService::send_change(std::int64_t base_version) {
   change.map_id = map_id_;
   change.version = version();
   change.base_version = base_version;
-  change.resolution_m = builder_.map().occupied.resolution_m();
+  change.resolution = resolution_of(builder_.map());
   if (base_version == kWholeMap) {
-    change.blocks = to_messages(builder_.map().occupied);
+    change.blocks = to_messages(builder_.map());
   } else if (base_version != version()) {
-    change.blocks = to_messages(builder_.map().occupied, builder_.changed_blocks().occupied);
+    change.blocks = to_messages(builder_.map(), builder_.changed_blocks());
   }
   const bool whole = change.is_whole();
   auto messages = split_map(std::move(change));

@@ -92,8 +92,10 @@ class Filler {
   }
 
   void fill(map_update_t& m) {
-    fill_all(m.utime, m.map_id, m.version, m.base_version, m.chunk, m.n_chunks, m.resolution_m);
+    fill_all(m.utime, m.map_id, m.version, m.base_version, m.chunk, m.n_chunks, m.resolution_m,
+             m.passed_resolution_m);
     list(m.n_blocks, m.blocks);
+    list(m.n_passed_blocks, m.passed_blocks);
   }
 
   void fill(keyframe_t& m) {

@@ -17,7 +17,7 @@
 #include "bus/bus.h"
 #include "bus/convert.h"
 #include "bus/forge.h"
-#include "bus/map_chunks.h"
+#include "bus/map_convert.h"
 
 namespace voxlist {
 namespace {
@@ -41,7 +41,7 @@ class Victim {
     listen(kPose, Delivery::kLatest, [](const pose_t& m) { from_message(m); });
     listen(kTruth, Delivery::kEvery, [](const pose_t& m) { from_message(m); });
     listen(kKeyframe, Delivery::kEvery, [](const keyframe_t& m) { from_message(m); });
-    listen(kMapUpdate, Delivery::kEvery, [this](const map_update_t& m) { map_.add(m); });
+    listen(kMapUpdate, Delivery::kEvery, [this](const map_update_t& m) { take_map(m); });
     listen(kLocalisation, Delivery::kEvery, [](const localisation_t&) {});
     listen(kMapRequest, Delivery::kEvery, [](const map_request_t&) {});
     listen(kOctomap, Delivery::kEvery, [](const map_octree_t&) {});
@@ -89,13 +89,18 @@ class Victim {
     bus_.subscribe(channel, counted, delivery);
   }
 
+  void take_map(const map_update_t& message) {
+    for (const MapChange& change : assembler_.add(message)) apply(change, map_);
+  }
+
   std::int64_t counter(const std::string& name) const {
     const auto found = bus_.counters().find(name);
     return found == bus_.counters().end() ? 0 : found->second;
   }
 
   Bus& bus_;
-  MapAssembler map_;
+  MapAssembler assembler_;
+  OccupancyMap map_;
   std::map<std::string, std::int64_t> calls_;
 };
 

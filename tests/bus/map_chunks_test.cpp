@@ -13,7 +13,7 @@
 namespace voxlist {
 namespace {
 
-constexpr double kResolution_m = 0.05;
+constexpr MapResolution kResolution{0.05, 0.2};
 
 voxel_block_t block(std::int32_t x, std::int64_t bits) {
   voxel_block_t b{};
@@ -22,12 +22,21 @@ voxel_block_t block(std::int32_t x, std::int64_t bits) {
   return b;
 }
 
-// Version v at time 1000 v: blocks 0 .. n - 1 hold v.
+// Version v at time 1000 v: blocks 0 .. n - 1 hold v, a third of them as passed cells.
 MapChange change(std::int64_t version, std::int64_t base, std::int32_t n_blocks,
                  std::int64_t map_id = 1) {
-  MapChange c{1000 * version, map_id, version, base, kResolution_m, {}};
-  for (std::int32_t x = 0; x < n_blocks; ++x) c.blocks.push_back(block(x, version));
+  MapChange c{1000 * version, map_id, version, base, kResolution, {}};
+  const std::int32_t n_passed = n_blocks / 3;
+  for (std::int32_t x = 0; x < n_blocks - n_passed; ++x)
+    c.blocks.occupied.push_back(block(x, version));
+  for (std::int32_t x = 0; x < n_passed; ++x) c.blocks.passed.push_back(block(x, -version));
   return c;
+}
+
+std::vector<std::int32_t> xs_of(const std::vector<voxel_block_t>& blocks) {
+  std::vector<std::int32_t> xs;
+  for (const auto& b : blocks) xs.push_back(b.x);
+  return xs;
 }
 
 std::vector<MapChange> add_all(MapAssembler& assembler, const std::vector<map_update_t>& messages) {
@@ -62,8 +71,23 @@ TEST(SplitMap, MakesOneMessageOfNoBlocks) {
 
 TEST(SplitMap, RefusesAMapThatNoListenerWouldAccept) {
   MapChange huge = change(1, kWholeMap, 0);
-  huge.blocks.resize(std::size_t{kMaxChunks} * kBlocksPerChunk + 1);
+  huge.blocks.occupied.resize(std::size_t{kMaxChunks} * kBlocksPerChunk / 2 + 1);
+  huge.blocks.passed.resize(std::size_t{kMaxChunks} * kBlocksPerChunk / 2);
   EXPECT_THROW(split_map(std::move(huge)), std::length_error);
+}
+
+TEST(SplitMap, FillsEveryMessageButTheLastFromBothLists) {
+  const auto messages = split_map(change(3, kWholeMap, 3 * kBlocksPerChunk));
+  ASSERT_EQ(messages.size(), 3U);
+  for (const auto& message : messages) {
+    EXPECT_EQ(message.n_blocks + message.n_passed_blocks, kBlocksPerChunk);
+    EXPECT_EQ(message.resolution_m, kResolution.occupied_m);
+    EXPECT_EQ(message.passed_resolution_m, kResolution.passed_m);
+  }
+  EXPECT_EQ(messages[1].n_passed_blocks, 0);
+  EXPECT_EQ(messages[2].n_blocks, 0);
+  EXPECT_EQ(split_map(change(3, kWholeMap, kBlocksPerChunk))[0].n_passed_blocks,
+            kBlocksPerChunk / 3);
 }
 
 TEST(MapAssembler, AsksUntilItHoldsAMap) {
@@ -88,12 +112,14 @@ TEST(MapAssembler, PutsChunksTogetherInAnyOrderWithDuplicates) {
     MapAssembler assembler;
     const auto changes = add_all(assembler, messages);
     ASSERT_EQ(changes.size(), 1U) << "seed " << kSeed << " round " << round;
-    std::vector<std::int32_t> xs;
-    for (const auto& b : changes[0].blocks) xs.push_back(b.x);
-    EXPECT_EQ(xs.size(), 10U * kBlocksPerChunk);
-    EXPECT_TRUE(std::ranges::is_sorted(xs));
+    const auto occupied = xs_of(changes[0].blocks.occupied);
+    const auto passed = xs_of(changes[0].blocks.passed);
+    EXPECT_EQ(occupied.size() + passed.size(), 10U * kBlocksPerChunk);
+    EXPECT_EQ(passed.size(), 10U * kBlocksPerChunk / 3);
+    EXPECT_TRUE(std::ranges::is_sorted(occupied));
+    EXPECT_TRUE(std::ranges::is_sorted(passed));
     EXPECT_TRUE(changes[0].is_whole());
-    EXPECT_EQ(changes[0].resolution_m, kResolution_m);
+    EXPECT_EQ(changes[0].resolution, kResolution);
   }
 }
 
@@ -155,7 +181,7 @@ TEST(MapAssembler, PassesOnThatNothingChanged) {
   const auto changes = add_all(assembler, split_map(nothing_new));
   ASSERT_EQ(changes.size(), 1U);
   EXPECT_EQ(changes[0].utime_us, 2500);
-  EXPECT_TRUE(changes[0].blocks.empty());
+  EXPECT_EQ(changes[0].blocks.size(), 0U);
   EXPECT_FALSE(assembler.needs_request());
 }
 
@@ -201,7 +227,8 @@ TEST(MapAssembler, FollowsAMapperThatCameBackWithAnOlderVersion) {
 TEST(MapAssembler, RefusesChunksThatMakeNoSense) {
   MapAssembler assembler;
   const map_update_t good = split_map(change(3, kWholeMap, 2 * kBlocksPerChunk))[0];
-  std::vector<map_update_t> bad(14, good);
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  std::vector<map_update_t> bad(21, good);
   bad[0].chunk = 2;
   bad[1].chunk = -1;
   bad[2].n_chunks = 0;
@@ -216,8 +243,24 @@ TEST(MapAssembler, RefusesChunksThatMakeNoSense) {
   bad[11].utime = -5;
   bad[12].blocks.push_back(good.blocks[0]);
   bad[13].base_version = 3;
-  EXPECT_TRUE(add_all(assembler, bad).empty());
-  EXPECT_EQ(assembler.counters().at("bad_chunk"), 14);
+  bad[14].passed_resolution_m = std::numeric_limits<double>::quiet_NaN();
+  bad[15].passed_resolution_m = kInfinity;
+  bad[16].passed_resolution_m = -0.2;
+  bad[17].passed_resolution_m = 0.9 * kResolution.occupied_m;
+  bad[18].passed_resolution_m = 11.0;
+  bad[19].passed_blocks.push_back(good.blocks[0]);
+  bad[20].blocks.pop_back();
+  bad[20].passed_blocks.push_back(block(kMaxBlockCoordinate, 1));
+  for (const auto& message : bad) EXPECT_TRUE(assembler.add(message).empty());
+  EXPECT_EQ(assembler.counters().at("bad_chunk"), 21);
+}
+
+TEST(MapAssembler, RefusesPassedCellsWhereNothingChanged) {
+  MapAssembler assembler;
+  map_update_t message = split_map(change(3, 3, 0))[0];
+  message.passed_blocks.push_back(block(1, 1));
+  assembler.add(message);
+  EXPECT_EQ(assembler.counters().at("bad_chunk"), 1);
 }
 
 TEST(MapAssembler, RefusesChunksThatContradictEachOther) {
@@ -226,19 +269,24 @@ TEST(MapAssembler, RefusesChunksThatContradictEachOther) {
   assembler.add(messages[0]);
   messages[1].resolution_m *= 2;
   assembler.add(messages[1]);
-  messages[1].resolution_m = kResolution_m;
+  messages[1].resolution_m = kResolution.occupied_m;
+  messages[1].passed_resolution_m *= 2;
+  assembler.add(messages[1]);
+  messages[1].passed_resolution_m = kResolution.passed_m;
   messages[1].n_chunks = 3;
   assembler.add(messages[1]);
-  EXPECT_EQ(assembler.counters().at("bad_chunk"), 2);
+  EXPECT_EQ(assembler.counters().at("bad_chunk"), 3);
 }
 
 TEST(MapAssembler, NeverBuildsOnAMapOfAnotherResolution) {
-  MapAssembler assembler;
-  add_all(assembler, split_map(change(1, kWholeMap, 5)));
-  MapChange finer = change(2, 1, 5);
-  finer.resolution_m /= 2;
-  EXPECT_TRUE(add_all(assembler, split_map(finer)).empty());
-  EXPECT_TRUE(assembler.needs_request());
+  for (const MapResolution other : {MapResolution{0.025, 0.2}, MapResolution{0.05, 0.1}}) {
+    MapAssembler assembler;
+    add_all(assembler, split_map(change(1, kWholeMap, 5)));
+    MapChange finer = change(2, 1, 5);
+    finer.resolution = other;
+    EXPECT_TRUE(add_all(assembler, split_map(finer)).empty());
+    EXPECT_TRUE(assembler.needs_request());
+  }
 }
 
 TEST(MapAssembler, KeepsABoundedNumberOfUnfinishedChanges) {
@@ -252,33 +300,34 @@ TEST(MapAssembler, EndsWithTheMappersMapWhateverTheLineLoses) {
   for (std::uint32_t seed = 0; seed < 10; ++seed) {
     std::mt19937 random(seed);
     MapAssembler assembler;
-    std::map<std::int32_t, std::int64_t> truth;
-    std::map<std::int32_t, std::int64_t> held;
+    std::map<std::int32_t, std::int64_t> truth, passed_truth;
+    std::map<std::int32_t, std::int64_t> held, passed;
     std::vector<map_update_t> line;
     for (std::int64_t v = 1; v <= 100; ++v) {
       const bool lossy = v < 90;
-      MapChange increment{1000 * v, 1, v, v - 1, kResolution_m, {}};
-      for (std::int32_t i = 0; i < 2000; ++i) {
-        increment.blocks.push_back(block(i, v));
-        truth[i] = v;
-      }
+      const MapChange increment = change(v, v - 1, 2000);
+      for (const auto& b : increment.blocks.occupied) truth[b.x] = v;
+      for (const auto& b : increment.blocks.passed) passed_truth[b.x] = -v;
       for (auto& m : split_map(increment)) line.push_back(std::move(m));
       if (assembler.needs_request()) {
-        MapChange whole{1000 * v + 1, 1, v, kWholeMap, kResolution_m, {}};
-        for (const auto& [x, bits] : truth) whole.blocks.push_back(block(x, bits));
+        MapChange whole{1000 * v + 1, 1, v, kWholeMap, kResolution, {}};
+        for (const auto& [x, bits] : truth) whole.blocks.occupied.push_back(block(x, bits));
+        for (const auto& [x, bits] : passed_truth) whole.blocks.passed.push_back(block(x, bits));
         for (auto& m : split_map(whole)) line.push_back(std::move(m));
       }
       if (lossy && random() % 3 == 0) std::ranges::shuffle(line, random);
       for (const auto& message : line) {
         if (lossy && random() % 10 == 0) continue;
         for (const MapChange& c : assembler.add(message)) {
-          if (c.is_whole()) held.clear();
-          for (const auto& b : c.blocks) held[b.x] = b.bits[0];
+          if (c.is_whole()) held.clear(), passed.clear();
+          for (const auto& b : c.blocks.occupied) held[b.x] = b.bits[0];
+          for (const auto& b : c.blocks.passed) passed[b.x] = b.bits[0];
         }
       }
       line.clear();
     }
     EXPECT_EQ(held, truth) << "seed " << seed;
+    EXPECT_EQ(passed, passed_truth) << "seed " << seed;
     EXPECT_EQ(assembler.held()->version, 100) << "seed " << seed;
   }
 }

@@ -50,12 +50,12 @@ struct Scene {
     bus.handle(std::chrono::milliseconds(0));
   }
 
-  void send_map(const VoxelMap& map, std::int64_t utime_us, std::int64_t map_id = 7) {
+  void send_map(const OccupancyMap& map, std::int64_t utime_us, std::int64_t map_id = 7) {
     MapChange change;
     change.utime_us = utime_us;
     change.map_id = map_id;
     change.version = map.empty() ? 0 : 1;
-    change.resolution_m = map.resolution_m();
+    change.resolution = resolution_of(map);
     change.blocks = to_messages(map);
     for (const auto& message : split_map(std::move(change))) bus.publish(kMapUpdate, message);
   }
@@ -72,9 +72,9 @@ struct Scene {
   std::vector<map_request_t> requests;
 };
 
-VoxelMap map_of_room() {
-  VoxelMap map;
-  for (const auto& p : room(0).points) map.insert(voxel_at(p, map.resolution_m()));
+OccupancyMap map_of_room() {
+  OccupancyMap map;
+  add_scan(room(0), Pose3::Identity(), 100.0, map);
   return map;
 }
 
@@ -90,7 +90,7 @@ TEST(LocaliserService, AsksForAMapOnceASecondAndClaimsNoPoseWithoutOne) {
 
 TEST(LocaliserService, AnEmptyMapIsBegunByTheFirstCloud) {
   Scene scene;
-  scene.send_map(VoxelMap(), 0);
+  scene.send_map({}, 0);
   scene.send_cloud(kStart_us);
   scene.run(kStart_us);
   ASSERT_EQ(scene.localisations.size(), 1u);
@@ -126,7 +126,7 @@ TEST(LocaliserService, TheNextCloudWaitsForTheMappersWordButNotForEver) {
                         .map_id = 7,
                         .version = 1,
                         .base_version = 1,
-                        .resolution_m = 0.02,
+                        .resolution = resolution_of({}),
                         .blocks = {}};
   for (const auto& message : split_map(nothing_new)) scene.bus.publish(kMapUpdate, message);
   scene.run(kStart_us + 1'000'001);
