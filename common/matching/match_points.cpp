@@ -1,9 +1,10 @@
 #include "matching/match_points.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
-#include "voxels/voxel.h"
+#include "matching/fast_cell.h"
 
 namespace voxlist {
 namespace {
@@ -45,8 +46,13 @@ std::uint64_t key_of(const Voxel& v) {
   return part(v.z) << 42 | part(v.y) << 21 | part(v.x);
 }
 
-bool lexicographic(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
-  return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
+// Which point of a cell is kept: none is nearer to one side of the cell than to another, which the
+// first by its coordinates would be (and pull the pose along by millimetres).
+std::uint64_t lot(const Eigen::Vector3f& p) {
+  std::uint64_t lot = 0;
+  for (const float value : p)
+    lot = (lot ^ std::bit_cast<std::uint32_t>(value)) * 0x9e3779b97f4a7c15u;
+  return lot ^ lot >> 32;
 }
 
 // Sums over the points of a cube, in finest voxels from the cube's lowest: whole numbers, whose
@@ -98,7 +104,7 @@ Indices upright(std::span<const Eigen::Vector3f> points, const Indices& in_range
   Indices cube_of;
   cube_of.reserve(in_range.size());
   for (const std::uint32_t i : in_range) {
-    const Voxel v = voxel_at(points[i], kFinestResolution_m);
+    const Voxel v = cell_at(points[i], 1.0 / kFinestResolution_m);
     const Voxel cube{floor_div(v.x, edge), floor_div(v.y, edge), floor_div(v.z, edge)};
     const std::uint32_t number = numbers.number(key_of(cube));
     if (number == cubes.size()) cubes.emplace_back();
@@ -116,22 +122,23 @@ Indices upright(std::span<const Eigen::Vector3f> points, const Indices& in_range
 }
 
 struct InCell {
-  std::uint64_t key;
+  std::uint64_t key, lot;
   std::uint32_t index;
 };
 
-// One point of each cell, the lexicographically first, by layer, row and column.
+// One point of each cell, drawn by lot, by layer, row and column.
 std::vector<InCell> one_per_cell(std::span<const Eigen::Vector3f> points, const Indices& from,
                                  double spacing_m) {
   CellNumbers numbers(from.size());
   std::vector<InCell> cells;
   for (const std::uint32_t i : from) {
-    const std::uint64_t key = key_of(voxel_at(points[i], spacing_m));
+    const std::uint64_t key = key_of(cell_at(points[i], 1.0 / spacing_m));
+    const std::uint64_t drawn = lot(points[i]);
     const std::uint32_t number = numbers.number(key);
     if (number == cells.size())
-      cells.push_back({key, i});
-    else if (lexicographic(points[i], points[cells[number].index]))
-      cells[number].index = i;
+      cells.push_back({key, drawn, i});
+    else if (drawn < cells[number].lot)
+      cells[number] = {key, drawn, i};
   }
   std::sort(cells.begin(), cells.end(), [](auto& a, auto& b) { return a.key < b.key; });
   return cells;
@@ -187,12 +194,15 @@ Indices chosen(std::span<const Eigen::Vector3f> points, const MatchPointsConfig&
 
 MatchPoints taken(const RayPoints& scan, const Indices& indices) {
   MatchPoints result;
+  result.points.reserve(indices.size());
+  double farthest2 = 0.0;
   for (const std::uint32_t i : indices) {
     const Eigen::Vector3f& p = scan.points[i];
     result.points.push_back(p);
     if (!scan.origins.empty()) result.origins.push_back(scan.origins[i]);
-    result.radius_m = std::max(result.radius_m, std::hypot(double(p.x()), double(p.y())));
+    farthest2 = std::max(farthest2, p.head<2>().cast<double>().squaredNorm());
   }
+  result.radius_m = std::sqrt(farthest2);
   return result;
 }
 

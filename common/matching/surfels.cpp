@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "matching/fast_cell.h"
 #include "matching/surfel_fit.h"
 
 namespace voxlist {
@@ -24,11 +25,11 @@ SurfelMap::SurfelMap(const OccupancyMap& map, const SurfelConfig& config)
     : map_(map), config_(config), directory_(kFirstDirectorySize) {
   const double block_m = kBlockEdge * map.occupied.resolution_m();
   blocks_ = std::max(1, static_cast<std::int32_t>(std::lround(config.cell_m / block_m)));
-  cell_m_ = blocks_ * block_m;
+  cubes_per_m_ = 1.0 / (blocks_ * block_m);
 }
 
 const Surfel* SurfelMap::find(const Eigen::Vector3d& point, const Eigen::Vector3d& origin) const {
-  const Cube& cube = cube_at(voxel_at(point, cell_m_));
+  const Cube& cube = cube_at(cell_at(point, cubes_per_m_));
   const Surfel* nearest = nullptr;
   double least_m = std::numeric_limits<double>::infinity();
   for (int i = 0; i < cube.count; ++i) {

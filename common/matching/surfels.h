@@ -71,7 +71,7 @@ class SurfelMap {
   const OccupancyMap& map_;
   const SurfelConfig config_;
   std::int32_t blocks_;  // along a cube's edge
-  double cell_m_;
+  double cubes_per_m_;
   mutable std::deque<Cube> cubes_;
   mutable std::vector<std::uint32_t> directory_;  // open addressing; 0: free, else cube + 1
 };

@@ -35,7 +35,9 @@ Match WindowMatcher::match(const Cloud& cloud, const PoseWindow& window) {
   match.complete = found.complete;
   match.poses_examined = found.poses_examined;
   if (found.modes.empty()) return match;
-  match.modes = refined(surfels_, scan, candidates_of(found, counted.points.size()));
+  // Most of the way with few points: many candidates go to the same place.
+  match.modes = refined(surfels_, counted, candidates_of(found, counted.points.size()));
+  match.modes = refined(surfels_, scan, match.modes);
   std::stable_sort(match.modes.begin(), match.modes.end(),
                    [](const auto& a, const auto& b) { return a.fit > b.fit; });
   match.significance_log10 =

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "matching/bit_counters.h"
+#include "matching/fast_cell.h"
 
 namespace voxlist {
 namespace {
@@ -75,15 +76,14 @@ class TurnedScan {
              std::int32_t angle)
       : map_(map), lattice_(lattice) {
     const double yaw = lattice.yaw0_rad + angle * lattice.yaw_step_rad;
-    const double c = std::cos(yaw) / lattice.cell_m, s = std::sin(yaw) / lattice.cell_m;
-    const double per_layer = 0.5 / lattice.cell_m;
+    const double c = std::cos(yaw), s = std::sin(yaw);
     places_.reserve(scan.points.size() + kTile);
     for (const auto& p : scan.points) {
-      const auto cell = [](double value) { return static_cast<std::int32_t>(std::floor(value)); };
-      const std::int32_t z = cell(p.z() * per_layer);
-      if (z < map.lowest_layer() || z >= map.lowest_layer() + map.layers()) continue;
-      places_.push_back(map.place(cell(c * p.x() - s * p.y()) + lattice.x0,
-                                  cell(s * p.x() + c * p.y()) + lattice.y0, z));
+      const Voxel cell =
+          cell_at(Eigen::Vector3d(c * p.x() - s * p.y(), s * p.x() + c * p.y(), p.z() / 2.0),
+                  1.0 / lattice.cell_m);
+      if (cell.z < map.lowest_layer() || cell.z >= map.lowest_layer() + map.layers()) continue;
+      places_.push_back(map.place(cell.x + lattice.x0, cell.y + lattice.y0, cell.z));
     }
   }
 
