@@ -54,8 +54,8 @@ inline constexpr Channel<pose_t> kTruth{"TRUTH"};
 /// From localiser to mapper.
 inline constexpr Channel<localisation_t> kLocalisation{"LOCALISATION"};
 
-/// Voxel blocks that changed, in chunks (map_chunks.h). Frame: map. Rate: each cloud; a whole map
-/// on request. From mapper to localiser.
+/// Blocks of the map that changed, of voxels and of cells that rays passed, in chunks
+/// (map_chunks.h). Frame: map. Rate: each cloud; a whole map on request. From mapper to localiser.
 inline constexpr Channel<map_update_t> kMapUpdate{"MAP_UPDATE"};
 
 /// A cloud that went into the map, with its pose. Frame: base, pose in map. Rate: each added cloud.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <stdexcept>
 
 #include "matching/coarse_sweep_kernel.h"
@@ -15,6 +16,7 @@ namespace {
 
 constexpr std::size_t kVectorWords = 8;  // of the widest
 constexpr std::size_t kAtOnce = 8;       // cells that the kernel takes
+constexpr std::size_t kSumPlanes = 16;   // of counts
 constexpr std::size_t kMostCells = ((std::size_t{1} << kSweepPlanes) - 1) / kAtOnce * kAtOnce;
 
 bool within(const Voxel& v, const Voxel& low, const Voxel& high) {
@@ -48,6 +50,21 @@ void run(const SweepJob& job, Instructions instructions) {
   }
 }
 
+// Adds the kernel's counts to sums, both in bit planes of `words` words.
+void add_planes(const std::vector<std::uint64_t>& planes, std::size_t words,
+                std::vector<std::uint64_t>& sums) {
+  for (std::size_t word = 0; word < words; ++word) {
+    std::uint64_t carry = 0;
+    for (std::size_t p = 0; p < kSumPlanes; ++p) {
+      const std::uint64_t a = p < kSweepPlanes ? planes[p * words + word] : 0;
+      std::uint64_t& sum = sums[p * words + word];
+      const std::uint64_t either = sum ^ a, next = (sum & a) | (either & carry);
+      sum = either ^ carry;
+      carry = next;
+    }
+  }
+}
+
 using Lanes = std::array<std::uint16_t, 8>;
 
 // Each byte's bits as eight numbers.
@@ -58,19 +75,18 @@ constexpr std::array<Lanes, 256> kBits = [] {
   return table;
 }();
 
-// Counts out of bit planes, added to those of other cells.
-void add_counts(const std::vector<std::uint64_t>& planes, std::size_t words,
-                std::span<std::uint16_t> counts) {
+// Bit planes as numbers.
+void unpack(const std::vector<std::uint64_t>& sums, std::size_t words, std::size_t planes,
+            std::span<std::uint16_t> counts) {
   for (std::size_t begin = 0; begin < counts.size(); begin += 8) {
-    Lanes sum{};
-    for (std::size_t p = 0; p < kSweepPlanes; ++p) {
-      const Lanes& bits = kBits[planes[p * words + begin / 64] >> begin % 64 & 255];
+    Lanes count{};
+    for (std::size_t p = 0; p < planes; ++p) {
+      const Lanes& bits = kBits[sums[p * words + begin / 64] >> begin % 64 & 255];
       for (std::size_t i = 0; i < 8; ++i)
-        sum[i] = static_cast<std::uint16_t>(sum[i] | bits[i] << p);
+        count[i] = static_cast<std::uint16_t>(count[i] | bits[i] << p);
     }
     const std::size_t size = std::min<std::size_t>(8, counts.size() - begin);
-    for (std::size_t i = 0; i < size; ++i)
-      counts[begin + i] = static_cast<std::uint16_t>(counts[begin + i] + sum[i]);
+    std::copy_n(count.begin(), size, counts.begin() + static_cast<std::ptrdiff_t>(begin));
   }
 }
 
@@ -93,24 +109,26 @@ RowMap::RowMap(const VoxelMap& map, const Voxel& low, const Voxel& high)
 void overlap_rows(const RowMap& map, std::span<const Voxel> scan, const TranslationBlock& block,
                   Instructions instructions, std::span<std::uint16_t> counts) {
   check(map, scan, block, counts.size());
-  std::fill(counts.begin(), counts.end(), std::uint16_t{0});
   std::vector<std::int64_t> bits;
   for (const Voxel& v : scan)
     bits.push_back(map.bit({v.x + block.first.x, v.y + block.first.y, v.z + block.first.z}));
-  std::sort(bits.begin(), bits.end());  // neighbours share cache lines
   bits.resize((bits.size() + kAtOnce - 1) / kAtOnce * kAtOnce, map.free_bit());
 
   const auto columns = static_cast<std::size_t>(block.columns);
   constexpr std::size_t kVectorBits = 64 * kVectorWords;
   const std::size_t words = (columns + kVectorBits - 1) / kVectorBits * kVectorWords;
-  std::vector<std::uint64_t> planes(kSweepPlanes * words);
+  const auto sum_planes = static_cast<std::size_t>(std::bit_width(scan.size()));
+  std::vector<std::uint64_t> planes(kSweepPlanes * words), sums(kSumPlanes * words);
   for (std::int64_t row = 0; row < block.rows; ++row) {
     SweepJob job{map.words() + row * map.row_words(), words, {}, planes.data()};
+    std::fill(sums.begin(), sums.end(), 0);
     for (std::size_t begin = 0; begin < bits.size(); begin += kMostCells) {
       job.digits[0] = {bits.data() + begin, std::min(kMostCells, bits.size() - begin)};
       run(job, instructions);
-      add_counts(planes, words, counts.subspan(static_cast<std::size_t>(row) * columns, columns));
+      add_planes(planes, words, sums);
     }
+    unpack(sums, words, sum_planes,
+           counts.subspan(static_cast<std::size_t>(row) * columns, columns));
   }
 }
 

@@ -1,14 +1,16 @@
-// One overlap, three ways: the paper's hash set, the block map, and the bit-sliced sweep. Same
-// scan, map and poses.
+// One overlap, three ways: the paper's hash set, the block map, and rows of bits with each set of
+// instructions that this processor has. Same scan, map and translations; counts are checked to be
+// the same. Two scenes: hall or room at 0.08 m, and a floor of 60 x 40 m at 0.04 m.
 #include <algorithm>
 #include <cstdint>
-#include <limits>
 #include <unordered_set>
 
 #include "bench/report.h"
 #include "bench/scene.h"
+#include "bench/test_floor.h"
+#include "matching/instruction_sets.h"
 #include "matching/overlap.h"
-#include "matching/sweep.h"
+#include "matching/overlap_rows.h"
 #include "voxels/occupancy_list.h"
 
 namespace voxlist {
@@ -22,105 +24,146 @@ struct Hash {
   }
 };
 
-constexpr int kFactor = 4;  // 0.08 m
-constexpr SweepWindow kWindow{-64, -32, 128, 64};
-constexpr double kPoses = 128.0 * 64.0;
 using Counts = std::vector<std::uint16_t>;
 
-// Everything at 0.08 m, the scan turned to its true heading and moved to its true place.
+// The scan turned to its true heading and moved to its true place, its map in three forms, and
+// translations around.
 struct Inputs {
+  std::string name;
   std::vector<Voxel> scan;
   VoxelMap map;
   std::unordered_set<Voxel, Hash> set;
-  StridedGrid grid;
+  RowMap rows;
+  TranslationBlock block;
+
+  std::size_t poses() const { return static_cast<std::size_t>(block.columns * block.rows); }
 };
 
-std::vector<Voxel> turned_scan(double resolution_m) {
+VoxelMap coarser(const VoxelMap& map, int factor) {
+  VoxelMap result(map.resolution_m() * factor);
+  map.for_each_voxel([&](const Voxel& v) {
+    result.insert({floor_div(v.x, factor), floor_div(v.y, factor), floor_div(v.z, factor)});
+  });
+  return result;
+}
+
+std::vector<Voxel> voxels_of(const std::vector<Eigen::Vector3f>& points_base,
+                             const Pose2& T_map_base, double resolution_m) {
   std::vector<Eigen::Vector3f> points;
-  for (const auto& p : scene().scan)
-    points.push_back((scene().truth * p.cast<double>()).cast<float>());
+  for (const auto& p : points_base) points.push_back((T_map_base * p.cast<double>()).cast<float>());
   const OccupancyList list = OccupancyList::from_points(points, resolution_m);
   return {list.voxels().begin(), list.voxels().end()};
 }
 
-StridedGrid grid_of(const VoxelMap& map) {
-  constexpr std::int32_t kMost = std::numeric_limits<std::int32_t>::max();
-  Voxel low{kMost, kMost, kMost}, high{-kMost, -kMost, -kMost};
-  map.for_each_voxel([&](const Voxel& v) {
+// The box of what a block of translations reaches.
+RowMap rows_for(const VoxelMap& map, const std::vector<Voxel>& scan,
+                const TranslationBlock& block) {
+  Voxel low = scan.front(), high = low;
+  for (const Voxel& v : scan) {
     low = {std::min(low.x, v.x), std::min(low.y, v.y), std::min(low.z, v.z)};
     high = {std::max(high.x, v.x), std::max(high.y, v.y), std::max(high.z, v.z)};
-  });
-  BitGrid grid(low, high.x - low.x + 1, high.y - low.y + 1, high.z - low.z + 1);
-  map.for_each_voxel([&](const Voxel& v) { grid.set(v); });
-  return StridedGrid(grid, 1);
+  }
+  return RowMap(
+      map, {low.x + block.first.x, low.y + block.first.y, low.z},
+      {high.x + block.first.x + block.columns, high.y + block.first.y + block.rows, high.z});
 }
 
-const Inputs& inputs() {
+Inputs make_inputs(const std::string& name, const VoxelMap& finest, int factor,
+                   const std::vector<Eigen::Vector3f>& points, const Pose2& truth,
+                   const TranslationBlock& block) {
+  VoxelMap map = coarser(finest, factor);
+  std::unordered_set<Voxel, Hash> set;
+  map.for_each_voxel([&](const Voxel& v) { set.insert(v); });
+  std::vector<Voxel> scan = voxels_of(points, truth, map.resolution_m());
+  RowMap rows = rows_for(map, scan, block);
+  return {name, std::move(scan), std::move(map), std::move(set), std::move(rows), block};
+}
+
+const Inputs& coarse() {
+  static const Inputs made = make_inputs(scene().name + ", 0.08 m", scene().map, 4, scene().scan,
+                                         scene().truth, {{-64, -32, 0}, 128, 64});
+  return made;
+}
+
+const Inputs& fine() {
   static const Inputs made = [] {
-    VoxelMap map(scene().map.resolution_m() * kFactor);
-    scene().map.for_each_voxel([&](const Voxel& v) {
-      map.insert({floor_div(v.x, kFactor), floor_div(v.y, kFactor), floor_div(v.z, kFactor)});
-    });
-    std::unordered_set<Voxel, Hash> set;
-    map.for_each_voxel([&](const Voxel& v) { set.insert(v); });
-    StridedGrid grid = grid_of(map);
-    std::vector<Voxel> scan = turned_scan(map.resolution_m());
-    return Inputs{std::move(scan), std::move(map), std::move(set), std::move(grid)};
+    const TestFloor floor = make_test_floor(floor_60_40(1));
+    Random random(1);
+    const Pose2 truth = free_pose(floor, random);
+    const Cloud scan = scan_at(floor.building, truth, 0, 1);
+    return make_inputs(floor.name + ", 0.04 m", floor.map.occupied, 2, scan.points, truth,
+                       {{-256, -32, 0}, 512, 64});
   }();
   return made;
 }
 
-// Calls count(offset) for every pose of the window.
+// Calls count(translation) for each of the block.
 template <class Count>
-void for_each_pose(Counts& counts, Count&& count) {
-  for (std::int32_t j = 0; j < kWindow.ny; ++j) {
-    for (std::int32_t i = 0; i < kWindow.nx; ++i) {
-      counts[static_cast<std::size_t>(j * kWindow.nx + i)] =
-          static_cast<std::uint16_t>(count(Voxel{kWindow.x0 + i, kWindow.y0 + j, 0}));
-    }
-  }
+void for_each_translation(const TranslationBlock& block, Counts& counts, Count&& count) {
+  std::size_t at = 0;
+  for (std::int32_t j = 0; j < block.rows; ++j)
+    for (std::int32_t i = 0; i < block.columns; ++i)
+      counts[at++] =
+          static_cast<std::uint16_t>(count(Voxel{block.first.x + i, block.first.y + j, 0}));
 }
 
-void by_hash_set(Counts& counts) {
-  for_each_pose(counts, [](const Voxel& t) {
+void by_hash_set(const Inputs& in, Counts& counts) {
+  for_each_translation(in.block, counts, [&in](const Voxel& t) {
     int o = 0;
-    for (const Voxel& v : inputs().scan) o += inputs().set.contains({v.x + t.x, v.y + t.y, v.z});
+    for (const Voxel& v : in.scan) o += in.set.contains({v.x + t.x, v.y + t.y, v.z});
     return o;
   });
 }
 
-void by_voxel_map(Counts& counts) {
-  for_each_pose(counts, [](const Voxel& t) { return overlap(inputs().scan, inputs().map, t); });
+void by_voxel_map(const Inputs& in, Counts& counts) {
+  for_each_translation(in.block, counts,
+                       [&in](const Voxel& t) { return overlap(in.scan, in.map, t); });
 }
 
-void by_sweep(Counts& counts) { sweep_overlaps(inputs().grid, inputs().scan, kWindow, counts); }
-
-void run(benchmark::State& state, void (*kernel)(Counts&)) {
-  state.SetLabel(scene().name);
-  Counts counts(static_cast<std::size_t>(kPoses)), expected = counts;
-  by_voxel_map(expected);
-  for (auto _ : state) kernel(counts);
+template <class Kernel>
+void run(benchmark::State& state, const Inputs& in, Kernel&& kernel) {
+  state.SetLabel(in.name);
+  Counts counts(in.poses()), expected = counts;
+  by_voxel_map(in, expected);
+  for (auto _ : state) kernel(in, counts);
   if (counts != expected) state.SkipWithError("counts differ from the voxel map's");
-  state.counters["scan_voxels"] = static_cast<double>(inputs().scan.size());
-  state.counters["poses_per_s"] =
-      benchmark::Counter(kPoses, benchmark::Counter::kIsIterationInvariantRate);
+  state.counters["scan_voxels"] = static_cast<double>(in.scan.size());
+  state.counters["map_voxels"] = static_cast<double>(in.map.size());
+  state.counters["poses_per_s"] = benchmark::Counter(static_cast<double>(in.poses()),
+                                                     benchmark::Counter::kIsIterationInvariantRate);
+}
+
+constexpr const char* kRows[] = {"rows_portable", "rows_avx2", "rows_avx512"};
+
+template <class Kernel>
+void add_one(const std::string& name, const Inputs& (*inputs)(), Kernel kernel) {
+  benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) {
+    run(state, inputs(), kernel);
+  })->Unit(benchmark::kMillisecond);
+}
+
+void add_scene(const std::string& scene_name, const Inputs& (*inputs)()) {
+  add_one(scene_name + "hash_set", inputs, by_hash_set);
+  add_one(scene_name + "voxel_map", inputs, by_voxel_map);
+  for (const Instructions instructions : instruction_sets()) {
+    const auto by_rows = [instructions](const Inputs& in, Counts& counts) {
+      overlap_rows(in.rows, in.scan, in.block, instructions, counts);
+    };
+    add_one(scene_name + kRows[static_cast<std::size_t>(instructions)], inputs, by_rows);
+  }
 }
 
 void add() {
-  const auto named = [](const char* name, void (*kernel)(Counts&)) {
-    benchmark::RegisterBenchmark(name, [kernel](benchmark::State& state) {
-      run(state, kernel);
-    })->Unit(benchmark::kMillisecond);
-  };
-  named("hash_set", by_hash_set);
-  named("voxel_map", by_voxel_map);
-  named("sweep", by_sweep);
+  add_scene("coarse/", coarse);
+  add_scene("fine/", fine);
 }
 
 void compare(Report& report) {
-  report.ratio("voxel_map", "hash_set", "poses_per_s");
-  report.ratio("sweep", "hash_set", "poses_per_s");
-  report.ratio("sweep", "voxel_map", "poses_per_s");
+  for (const std::string scene_name : {"coarse/", "fine/"}) {
+    report.ratio(scene_name + "voxel_map", scene_name + "hash_set", "poses_per_s");
+    for (const char* rows : kRows)
+      report.ratio(scene_name + rows, scene_name + "hash_set", "poses_per_s");
+  }
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <voxlist/health_t.hpp>
 #include <voxlist/map_octree_t.hpp>
+#include <voxlist/map_update_t.hpp>
 #include <voxlist/planar_lidar_t.hpp>
 #include <voxlist/pointcloud_t.hpp>
 #include <voxlist/pose_t.hpp>
@@ -136,6 +137,38 @@ TEST(Wire, WillNotEncodeCountsThatAreNotTheArraysLengths) {
   cloud = make_cloud();
   cloud.n_channels = 0;
   EXPECT_EQ(encode(cloud, bytes), Fault::kBadLength);
+}
+
+TEST(Wire, WillNotEncodeAMapUpdateWhoseCountsAreNotItsListsLengths) {
+  Buffer bytes;
+  map_update_t update{};
+  update.blocks.resize(2);
+  update.n_blocks = 2;
+  update.passed_blocks.resize(3);
+  update.n_passed_blocks = 3;
+  EXPECT_EQ(encode(update, bytes), Fault::kNone);
+  update.n_passed_blocks = 2;
+  EXPECT_EQ(encode(update, bytes), Fault::kBadLength);
+  update.n_passed_blocks = 3;
+  update.n_blocks = 3;
+  EXPECT_EQ(encode(update, bytes), Fault::kBadLength);
+}
+
+TEST(Wire, RefusesForgedLengthsOfEitherListOfAMapUpdate) {
+  map_update_t update{};
+  update.blocks.resize(2);
+  update.n_blocks = 2;
+  update.passed_blocks.resize(3);
+  update.n_passed_blocks = 3;
+  const Buffer bytes = encoded(update);
+  constexpr std::size_t kBlockBytes = 76;
+  const std::size_t passed_count_at = bytes.size() - 3 * kBlockBytes - 4;
+  for (const std::size_t at : {passed_count_at - 2 * kBlockBytes - 4, passed_count_at}) {
+    EXPECT_EQ(check_wire<map_update_t>(with_u32(bytes, at, 0xFFFFFFFF)), Fault::kBadLength);
+    EXPECT_EQ(check_wire<map_update_t>(with_u32(bytes, at, 0x20000000)), Fault::kTooLarge);
+    EXPECT_EQ(check_wire<map_update_t>(with_u32(bytes, at, 100)), Fault::kTruncated);
+  }
+  EXPECT_EQ(check_wire<map_update_t>(with_u32(bytes, passed_count_at, 2)), Fault::kTrailingBytes);
 }
 
 TEST(Wire, WillNotEncodeTextWithAZeroInside) {
