@@ -5,38 +5,12 @@
 #include <cmath>
 
 #include "matching/fast_cell.h"
+#include "matching/numbering.h"
 
 namespace voxlist {
 namespace {
 
 using Indices = std::vector<std::uint32_t>;
-
-// Numbers cells 0, 1, 2, ... in the order in which they are met.
-class CellNumbers {
- public:
-  explicit CellNumbers(std::size_t most) {
-    std::size_t size = 64;
-    while (size < 2 * most) size *= 2;
-    slots_.resize(size);
-  }
-
-  std::uint32_t number(std::uint64_t key) {
-    const std::size_t mask = slots_.size() - 1;
-    const std::uint64_t hash = key * 0x9e3779b97f4a7c15u;
-    std::size_t slot = (hash ^ (hash >> 32)) & mask;
-    while (slots_[slot].number != 0 && slots_[slot].key != key) slot = (slot + 1) & mask;
-    if (slots_[slot].number == 0) slots_[slot] = {key, ++count_};
-    return slots_[slot].number - 1;
-  }
-
- private:
-  struct Slot {
-    std::uint64_t key = 0;
-    std::uint32_t number = 0;
-  };
-  std::vector<Slot> slots_;
-  std::uint32_t count_ = 0;
-};
 
 // Ascending by layer, then row. Coordinates fit 21 bits a finest voxel apart within the lattice.
 std::uint64_t key_of(const Voxel& v) {
@@ -99,7 +73,7 @@ Indices upright(std::span<const Eigen::Vector3f> points, const Indices& in_range
   constexpr double kFewestKept = 0.05;  // of all points
   const auto edge =
       std::max(1, static_cast<std::int32_t>(std::lround(flat_cube_m / kFinestResolution_m)));
-  CellNumbers numbers(in_range.size());
+  Numbering numbers(in_range.size());
   std::vector<Spread> cubes;
   Indices cube_of;
   cube_of.reserve(in_range.size());
@@ -129,7 +103,7 @@ struct InCell {
 // One point of each cell, drawn by lot, by layer, row and column.
 std::vector<InCell> one_per_cell(std::span<const Eigen::Vector3f> points, const Indices& from,
                                  double spacing_m) {
-  CellNumbers numbers(from.size());
+  Numbering numbers(from.size());
   std::vector<InCell> cells;
   for (const std::uint32_t i : from) {
     const std::uint64_t key = key_of(cell_at(points[i], 1.0 / spacing_m));

@@ -11,13 +11,15 @@ namespace voxlist {
 struct RefineConfig {
   /// Residual (m) at which a point's weight has fallen to a quarter.
   double scale_m = 0.05;
-  int max_iterations = 30;
+  int max_iterations = 12;
   /// Stops when a step is smaller than this (m at the points' typical range).
-  double converged_m = 1e-4;
+  double converged_m = 2e-4;
   /// Standard deviation of the start, which holds the directions that the surfaces leave free (m,
   /// rad).
   double start_sigma_m = 0.15;
   double start_sigma_rad = 0.02;
+  /// Points scatter at least this much about a surface (m): below it, the lattice hides how much.
+  double least_sigma_m = 0.01;
 };
 
 /// A refined pose, with what was moved: (x, y, yaw) or (x, y, z, roll, pitch, yaw).

@@ -3,6 +3,8 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
+#include "matching/fast_cell.h"
+
 namespace voxlist {
 namespace {
 
@@ -51,6 +53,13 @@ bool is_surface(const Plane& plane, std::int64_t voxels, double resolution_m,
   return plane.deviations(1) >= config.min_flatness * thickness;
 }
 
+// Of a line of n scattered points: the variance across it over n times the variance along it.
+double tilt_variance(const Plane& plane, std::size_t voxels) {
+  const double across = plane.deviations(0) * plane.deviations(0) + 1.0 / 12.0,
+               along = plane.deviations(1) * plane.deviations(1);
+  return across / (along * static_cast<double>(voxels));
+}
+
 double across(const Plane& plane, const Voxel& v) {
   return plane.normal.dot(Eigen::Vector3d(v.x, v.y, v.z) - plane.mean);
 }
@@ -90,17 +99,39 @@ Split split(const Plane& plane, std::span<const Voxel> voxels, double resolution
   return result;
 }
 
+// Looks voxels up that lie near each other: mostly in the block of the one before.
+class NearbyLookUp {
+ public:
+  explicit NearbyLookUp(const VoxelMap& map) : map_(map), per_m_(1.0 / map.resolution_m()) {}
+
+  bool contains(const Eigen::Vector3d& p) {
+    const Voxel v = cell_at(p, per_m_), at = block_of(v);
+    if (!known_ || at != at_) block_ = map_.find_block(at);
+    known_ = true;
+    at_ = at;
+    return block_ &&
+           ((*block_)[static_cast<std::size_t>(v.z & 7)] >> ((v.x & 7) + 8 * (v.y & 7)) & 1) != 0;
+  }
+
+ private:
+  const VoxelMap& map_;
+  const double per_m_;
+  bool known_ = false;
+  Voxel at_;
+  const VoxelBlock* block_ = nullptr;
+};
+
 // How far rays passed on the way from a point on a surface, in steps, before something else is met:
 // the other face of a thin wall, past which there is another room.
-int way_free(const OccupancyMap& map, const Eigen::Vector3d& from,
+int way_free(NearbyLookUp& occupied, NearbyLookUp& passed, const Eigen::Vector3d& from,
              const Eigen::Vector3d& direction) {
   constexpr double kFirst_m = 0.06, kStep_m = 0.02;  // first beyond the surface's own noise
   constexpr int kSteps = 6;
   int free = 0;
   for (int i = 0; i < kSteps; ++i) {
     const Eigen::Vector3d p = from + (kFirst_m + i * kStep_m) * direction;
-    if (map.occupied.contains(voxel_at(p, map.occupied.resolution_m()))) break;
-    free += map.passed.contains(voxel_at(p, map.passed.resolution_m()));
+    if (occupied.contains(p)) break;
+    free += passed.contains(p);
   }
   return free;
 }
@@ -111,13 +142,15 @@ void find_side(const OccupancyMap& map, std::span<const Voxel> voxels, const Vox
   if (map.passed.empty()) return;
   constexpr std::size_t kSamples = 8;
   const std::size_t samples = std::min(kSamples, voxels.size());
+  NearbyLookUp occupied(map.occupied), passed(map.passed);
   int balance = 0;
   for (std::size_t i = 0; i < samples; ++i) {
     const Voxel& v = voxels[i * voxels.size() / samples];
     const Eigen::Vector3d p =
         center({lowest.x + v.x, lowest.y + v.y, lowest.z + v.z}, map.occupied.resolution_m());
     const Eigen::Vector3d foot = p - surfel.normal * surfel.normal.dot(p - surfel.mean);
-    balance += way_free(map, foot, surfel.normal) - way_free(map, foot, -surfel.normal);
+    balance += way_free(occupied, passed, foot, surfel.normal);
+    balance -= way_free(occupied, passed, foot, -surfel.normal);
   }
   if (balance < 0) surfel.normal = -surfel.normal;
   surfel.two_sided = static_cast<std::size_t>(std::abs(balance)) < samples;
@@ -129,7 +162,8 @@ bool make_surfel(const OccupancyMap& map, const Voxel& lowest, std::span<const V
   if (!is_surface(plane, static_cast<std::int64_t>(voxels.size()), resolution_m, config))
     return false;
   const Eigen::Vector3d from(lowest.x, lowest.y, lowest.z);
-  surfel = {(from + plane.mean + Eigen::Vector3d::Constant(0.5)) * resolution_m, plane.normal};
+  surfel = {(from + plane.mean + Eigen::Vector3d::Constant(0.5)) * resolution_m, plane.normal,
+            tilt_variance(plane, voxels.size())};
   find_side(map, voxels, lowest, surfel);
   return true;
 }

@@ -15,6 +15,8 @@ struct Surfel {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   /// Unit normal: out of the surface, to where rays passed; its sign is arbitrary when two_sided.
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  /// Variance of the normal's direction (rad^2), by the scatter of the voxels.
+  double tilt_variance = 0.0;
   /// Rays are known to have passed on both sides (a thin board), or on neither.
   bool two_sided = true;
 

@@ -12,18 +12,6 @@
 namespace voxlist {
 namespace {
 
-std::string machine() {
-  std::ifstream cpus("/proc/cpuinfo");
-  std::string model = "unknown";
-  for (std::string line; std::getline(cpus, line);) {
-    if (line.starts_with("model name")) {
-      model = line.substr(line.find(':') + 2);
-      break;
-    }
-  }
-  return model + " x" + std::to_string(std::thread::hardware_concurrency());
-}
-
 std::string commit() {
   const std::unique_ptr<FILE, int (*)(FILE*)> git(
       popen("git -C '" VOXLIST_SOURCE_DIR "' describe --always --dirty 2>/dev/null", "r"), pclose);
@@ -39,6 +27,18 @@ std::string quoted(const std::string& text) {
 }
 
 }  // namespace
+
+std::string machine() {
+  std::ifstream cpus("/proc/cpuinfo");
+  std::string model = "unknown";
+  for (std::string line; std::getline(cpus, line);) {
+    if (line.starts_with("model name")) {
+      model = line.substr(line.find(':') + 2);
+      break;
+    }
+  }
+  return model + " x" + std::to_string(std::thread::hardware_concurrency());
+}
 
 std::optional<std::string> take_csv_option(int& argc, char** argv) {
   for (int i = 1; i + 1 < argc; ++i) {

@@ -17,6 +17,9 @@ struct Figure {
 /// Takes --csv FILE out of a program's arguments.
 std::optional<std::string> take_csv_option(int& argc, char** argv);
 
+/// The processor's name and how many there are of it.
+std::string machine();
+
 /// Appends rows program,scene,benchmark,measure,value,machine,commit to a table, which it begins
 /// where there is none. Throws std::runtime_error.
 void append_csv(const std::string& file, const std::string& program,

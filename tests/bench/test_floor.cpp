@@ -98,6 +98,8 @@ void fill_map(TestFloor& floor) {
 
 TestFloorConfig floor_60_40(int seed) { return floor_of("60 x 40 m", seed, 60.0, 13.2, 20, 3); }
 
+TestFloorConfig floor_16_13(int seed) { return floor_of("16 x 13 m", seed, 16.0, 13.2, 4, 1); }
+
 TestFloorConfig floor_200_150(int seed) {
   return floor_of("200 x 150 m", seed, 200.0, 13.5, 66, 11);
 }
