@@ -15,7 +15,8 @@ class ParticleFilterMatcher : public Matcher {
       : config_(config),
         filter_(map.occupied, {.final_factor = final_factor(map.occupied, config)}),
         box_(map.occupied, {.resolution_m = config.resolution_m, .levels = 0}),
-        surfels_(map) {}
+        surfels_(map),
+        evidence_(map) {}
 
   Match match(const Cloud& cloud, const std::optional<PoseWindow>& window) override {
     const MatchPoints scan = chosen_points(cloud.points, config_, 0.05, config_.refine_points);
@@ -35,8 +36,8 @@ class ParticleFilterMatcher : public Matcher {
       if (!holds(candidates, particle.pose))
         candidates.push_back(candidate(particle.pose, particle.weight / voxels));
     }
-    match.modes = refined_by_fit(surfels_, scan.points, std::move(candidates));
-    match.rivalry = rivalry(match.modes);
+    match.modes = refined(surfels_, scan.points, candidates);
+    weigh(evidence_, cloud, match);
     return match;
   }
 
@@ -50,6 +51,7 @@ class ParticleFilterMatcher : public Matcher {
   const ParticleFilter filter_;
   const SearchMap box_;
   const SurfelMap surfels_;
+  const EvidenceMap evidence_;
 };
 
 }  // namespace

@@ -6,10 +6,16 @@
 #include "matching/match_modes.h"
 
 namespace voxlist {
+namespace {
+
+constexpr std::size_t kModes = 24, kBestModes = 8;
+constexpr std::size_t kFewPoints = 400;
+
+}  // namespace
 
 GlobalMatcher::GlobalMatcher(const OccupancyMap& map, const SurfelMap& surfels,
                              const MatcherConfig& config)
-    : map_(map), surfels_(surfels), config_(config) {}
+    : map_(map), surfels_(surfels), evidence_(map), config_(config) {}
 
 Match GlobalMatcher::match(const Cloud& cloud) {
   const GlobalMap& map = map_for(reach_m(cloud.points));
@@ -17,18 +23,26 @@ Match GlobalMatcher::match(const Cloud& cloud) {
       map.choose_points(cloud.points, static_cast<std::size_t>(config_.search_points));
   if (scan.size() < kFewestMatchPoints) return {};
   SearchConfig config{.max_nodes = config_.max_nodes};
-  config.mode_ratio = 0.85;
-  config.max_modes = 4;
+  // The true pose is among these, be it the first or not.
+  config.mode_ratio = 0.88;
+  config.max_modes = kModes;
+  config.mode_distance_m = 0.25;
+  config.mode_turn_rad = 0.1;
   const SearchResult found = global_search(map, scan, config);
   Match match;
   match.certified = found.certified;
   match.complete = found.complete;
   match.poses_examined = found.poses_examined;
   if (found.modes.empty()) return match;
-  match.modes =
-      refined(surfels_, chosen_points(cloud.points, config_, 0.1, config_.refine_points).points,
-              candidates_of(found, scan.size()));
-  match.rivalry = rivalry(match.modes);
+  const MatchPoints points = choose_match_points(
+      cloud,
+      {.max_range_m = config_.max_range_m, .spacing_m = 0.1, .max_points = config_.refine_points});
+  // Most of the way with few points, the best ones the rest.
+  match.modes = refined(surfels_, some_of(points, kFewPoints), candidates_of(found, scan.size()));
+  weigh(evidence_, cloud, match);
+  if (match.modes.size() > kBestModes) match.modes.resize(kBestModes);
+  match.modes = refined(surfels_, points, match.modes);
+  weigh(evidence_, cloud, match);
   const TolerantMap& cells = map.tolerant();
   match.significance_log10 = log10_significance(
       std::int64_t{cells.size_x()} * cells.size_y() * cells.size_z(), cells.occupied_cells(),

@@ -23,6 +23,7 @@ class GlobalMatcher {
 
   const OccupancyMap& map_;
   const SurfelMap& surfels_;
+  const EvidenceMap evidence_;
   const MatcherConfig config_;
   std::optional<GlobalMap> global_map_;
 };

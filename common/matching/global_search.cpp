@@ -303,8 +303,8 @@ SearchResult global_search(const GlobalMap& map, std::span<const Eigen::Vector3f
   const Bounds bounds(map.coarse(), turned, instructions);
   PoseCounter counter(tolerant, turned);
   const auto pose_of = [&](const LatticePose& pose) {
-    return Pose2{(tolerant.lowest().x + pose.x + 0.5) * tolerant.cell_m(),
-                 (tolerant.lowest().y + pose.y + 0.5) * tolerant.cell_m(),
+    return Pose2{(tolerant.lowest().x + pose.x) * tolerant.cell_m(),
+                 (tolerant.lowest().y + pose.y) * tolerant.cell_m(),
                  wrap_angle(turned.yaw_rad(pose.angle))};
   };
   Modes modes(config);

@@ -51,27 +51,28 @@ std::vector<MatchMode> refined(const SurfelMap& surfels, const RayPoints& points
   return modes;
 }
 
-std::vector<MatchMode> refined_by_fit(const SurfelMap& surfels, const RayPoints& points,
-                                      std::vector<MatchMode> candidates) {
-  for (MatchMode& mode : candidates) mode.fit = refine(surfels, points, mode.pose).inlier_share;
-  std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const auto& a, const auto& b) { return a.fit > b.fit; });
-  return refined(surfels, points, candidates);
+// The weights were chosen on 300 scans in five simulated floors with moved furniture and people
+// (seeds 1 to 5), where they put the true pose first in 294; overlap did in 279.
+double support(const Evidence& evidence) {
+  constexpr double kUnknown = 0.1, kViolation = 0.3;
+  const double known = evidence.hits + evidence.misses + kUnknown * evidence.unknown;
+  return evidence.hits / std::max(known, 1.0) -
+         kViolation * evidence.violations / std::max(evidence.rays, 1);
 }
 
-// Overlap counts points in cells, fit those that lie on surfaces: a wrong pose seldom comes near in
-// both. On three simulated floors of 60 x 40 m (bench_global 40 1, 2, 3; the limits were chosen on
-// them) 68 of 120 scans had no rival, 17 of 120 after furniture had been moved, all rightly, and
-// none of 120 from other buildings.
-double rivalry(const std::vector<MatchMode>& modes) {
-  constexpr double kDoubtfulOverlap = 0.88, kDoubtfulProduct = 0.76;
-  double worst = 0.0;
-  for (std::size_t i = 1; i < modes.size(); ++i) {
-    const double overlap = modes[i].overlap / std::max(modes.front().overlap, 1e-9);
-    const double fit = modes[i].fit / std::max(modes.front().fit, 1e-9);
-    worst = std::max({worst, overlap / kDoubtfulOverlap, overlap * fit / kDoubtfulProduct});
+void weigh(const EvidenceMap& map, const Cloud& scan, Match& match) {
+  const auto rays = choose_evidence_rays(scan);
+  for (MatchMode& mode : match.modes) {
+    mode.evidence = map.at(mode.pose, rays);
+    mode.support = support(mode.evidence);
   }
-  return worst;
+  std::stable_sort(match.modes.begin(), match.modes.end(),
+                   [](const auto& a, const auto& b) { return a.support > b.support; });
+  if (match.modes.empty()) return;
+  match.margin = match.modes.front().support -
+                 (match.modes.size() > 1 ? std::max(0.0, match.modes[1].support) : 0.0);
+  constexpr double kSure = 0.1;
+  match.rivalry = 2.0 - match.margin / kSure;
 }
 
 MatchPoints chosen_points(std::span<const Eigen::Vector3f> points, const MatcherConfig& config,

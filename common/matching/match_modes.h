@@ -24,12 +24,12 @@ bool holds(const std::vector<MatchMode>& modes, const Pose2& pose);
 std::vector<MatchMode> refined(const SurfelMap& surfels, const RayPoints& points,
                                const std::vector<MatchMode>& candidates);
 
-/// The same, best fit first.
-std::vector<MatchMode> refined_by_fit(const SurfelMap& surfels, const RayPoints& points,
-                                      std::vector<MatchMode> candidates);
+/// How much evidence speaks for a pose, at most 1: the share of hits among the ends of rays of
+/// which the map knows anything, less what rays went through. Unknown space hardly counts.
+double support(const Evidence& evidence);
 
-/// How near the second mode comes to the first (Match::rivalry).
-double rivalry(const std::vector<MatchMode>& modes);
+/// Weighs the match's modes with a scan's evidence, and sorts them by it.
+void weigh(const EvidenceMap& map, const Cloud& scan, Match& match);
 
 /// The points of a scan that a search, or a refinement, uses.
 MatchPoints chosen_points(std::span<const Eigen::Vector3f> points, const MatcherConfig& config,

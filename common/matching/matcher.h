@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "geometry/cloud.h"
+#include "matching/evidence.h"
 #include "matching/search.h"
 #include "voxels/occupancy_map.h"
 
@@ -57,14 +58,19 @@ struct MatchMode {
   double overlap = 0.0;
   /// Share of the points that lie on the map's surfaces, after refinement.
   double fit = 0.0;
+  /// What the map says to the refined pose, and how much that speaks for it. Only after a search of
+  /// the whole map.
+  Evidence evidence;
+  double support = 0.0;
 };
 
 struct Match {
-  /// Best first, distinct in pose; empty when there is nothing to match. By overlap after a search
+  /// Best first, distinct in pose; empty when there is nothing to match. By support after a search
   /// of the whole map, by fit after others.
   std::vector<MatchMode> modes;
-  /// How near the second mode comes to the first: 0, there is none; 1 and above, nobody can tell
-  /// which is right.
+  /// How much more support the first mode has than the second, or than none.
+  double margin = 0.0;
+  /// The same as a limit: 1 and above, nobody can tell which is right.
   double rivalry = 0.0;
   /// No pose of the lattice overlaps more than the best found.
   bool certified = false;

@@ -188,7 +188,7 @@ TEST(GlobalSearch, FindsAScanThatLooksInFromTheMapsEdge) {
   // A pose from which most points, turned by some other angle, would lie far outside the map.
   const LatticeWorld world = lattice_world(3);
   const Voxel corner = TolerantMap(world.map, 0.04, kReach_m).lowest();
-  const Pose2 truth{corner.x * 0.04 + 0.02, corner.y * 0.04 + 0.02, 2.0};
+  const Pose2 truth{corner.x * 0.04, corner.y * 0.04, 2.0};
   std::vector<Eigen::Vector3f> scan;
   std::int64_t count = 0;
   world.map.for_each_voxel([&](const Voxel& v) {

@@ -66,8 +66,8 @@ class AllOverlaps {
 
   Pose2 pose(std::int32_t angle, std::int32_t x, std::int32_t y) const {
     const TolerantMap& cells = map_.tolerant();
-    return {(cells.lowest().x + x + 0.5) * cells.cell_m(),
-            (cells.lowest().y + y + 0.5) * cells.cell_m(), wrap_angle(yaw_rad(angle))};
+    return {(cells.lowest().x + x) * cells.cell_m(),
+            (cells.lowest().y + y) * cells.cell_m(), wrap_angle(yaw_rad(angle))};
   }
 
   /// The overlap of a pose of the lattice, or -1.
@@ -75,8 +75,8 @@ class AllOverlaps {
     const TolerantMap& cells = map_.tolerant();
     const auto nearest = [](double value) { return static_cast<std::int32_t>(std::lround(value)); };
     const std::int32_t angle = (nearest(pose.yaw_rad / yaw_rad(1)) + angles_) % angles_;
-    const std::int32_t x = nearest(pose.x_m / cells.cell_m() - 0.5) - cells.lowest().x,
-                       y = nearest(pose.y_m / cells.cell_m() - 0.5) - cells.lowest().y;
+    const std::int32_t x = nearest(pose.x_m / cells.cell_m()) - cells.lowest().x,
+                       y = nearest(pose.y_m / cells.cell_m()) - cells.lowest().y;
     if (x < 0 || y < 0 || x >= size_x_ || y >= size_y_) return -1;
     return at(angle, x, y);
   }
