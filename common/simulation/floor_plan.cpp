@@ -58,19 +58,20 @@ class Planner {
   void add_side(double side, int count) {
     const double corridor = side * config_.corridor_width_m / 2.0;
     if (count == 0) return add_wall(low_.x(), corridor, high_.x(), corridor + side * kWall_m);
-    const double width = config_.length_m / count;
     double from = low_.x();
-    const double alike = (config_.length_m - (count - 1) * kWall_m) / count;
     for (int i = 0; i < count; ++i) {
-      const bool last = i + 1 == count;
-      const double to = last ? high_.x()
-                        : config_.alike != 0
-                            ? from + alike
-                            : low_.x() + width * (i + 1 + random_.uniform(-0.1, 0.1));
+      const double to = room_end(from, i, count);
       add_room(side, from, to);
-      if (!last) add_wall(to, corridor, to + kWall_m, side * high_.y());
-      from = last ? to : to + kWall_m;
+      if (i + 1 < count) add_wall(to, corridor, to + kWall_m, side * high_.y());
+      from = to + kWall_m;
     }
+  }
+
+  // Where room i of `count`, which begins at `from`, ends.
+  double room_end(double from, int i, int count) {
+    if (i + 1 == count) return high_.x();
+    if (config_.alike != 0) return from + (config_.length_m - (count - 1) * kWall_m) / count;
+    return low_.x() + config_.length_m / count * (i + 1 + random_.uniform(-0.1, 0.1));
   }
 
   // In rooms that are alike, where the first has it, seen from the corridor.
