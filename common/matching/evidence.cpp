@@ -82,8 +82,8 @@ bool touches(const VoxelBlock& block, const Voxel& v) {
 
 }  // namespace
 
-std::vector<EvidenceRay> choose_evidence_rays(const Cloud& scan, std::size_t most) {
-  constexpr double kSpacing_m = 0.2;
+std::vector<EvidenceRay> choose_evidence_rays(const Cloud& scan, std::size_t most,
+                                              double spacing_m) {
   struct InCube {
     Voxel cube;
     std::size_t i;
@@ -92,7 +92,7 @@ std::vector<EvidenceRay> choose_evidence_rays(const Cloud& scan, std::size_t mos
   for (std::size_t i = 0; i < scan.points.size(); ++i) {
     const auto& p = scan.points[i];
     if (in_lattice(p, kFinestResolution_m) && in_lattice(scan.origin(i), kFinestResolution_m))
-      in_cubes.push_back({voxel_at(p, kSpacing_m), i});
+      in_cubes.push_back({voxel_at(p, spacing_m), i});
   }
   // By layers first.
   std::sort(in_cubes.begin(), in_cubes.end(), [](const InCube& a, const InCube& b) {

@@ -32,10 +32,11 @@ struct EvidenceRay {
   Eigen::Vector3f origin, end;
 };
 
-/// Rays of a scan that stand for all: one of each cube of 0.2 m, layers of one height capped alike
-/// so that floor and ceiling do not outvote walls, at most `most`. The same rays in the same order
-/// for the same cloud. Not finite or absurdly far points are left out.
-std::vector<EvidenceRay> choose_evidence_rays(const Cloud& scan, std::size_t most = 600);
+/// Rays of a scan that stand for all: one of each cube of that spacing, layers of one height capped
+/// alike so that floor and ceiling do not outvote walls, at most `most`. The same rays in the same
+/// order for the same cloud. Not finite or absurdly far points are left out.
+std::vector<EvidenceRay> choose_evidence_rays(const Cloud& scan, std::size_t most = 600,
+                                              double spacing_m = 0.2);
 
 /// A map made ready for weighing poses; rebuild it after the map has changed. The map must outlive
 /// it. Reading from several threads is safe.

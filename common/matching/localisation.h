@@ -28,6 +28,10 @@ struct PoseMode {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   /// Matched points whose cell is occupied in the tolerant map, as a share, 0..1.
   double overlap = 0.0;
+  /// How well map and scan agree there, at most 1 (support); 0 while tracking.
+  double support = 0.0;
+  /// That this mode is right, 0..1; all modes' together are less than 1: none of them may be.
+  double probability = 0.0;
 };
 
 /// What is known of where one cloud was taken.
@@ -39,7 +43,7 @@ struct Localisation {
   /// log10 of the probability of the overlap by chance (paper, section IV), over all poses of the
   /// lattice.
   double significance_log10 = 0.0;
-  /// How sure that the first mode is right, 0..1.
+  /// Probability that the first mode is right, 0..1.
   double confidence = 0.0;
   /// No pose of the searched lattice overlaps more than the best one found.
   bool certified = false;

@@ -10,6 +10,11 @@
 
 namespace voxlist {
 
+class EvidenceMap;
+class LostSearch;
+class PoseTrack;
+struct MotionLimits;
+
 struct LocaliserConfig {
   MatcherConfig matcher;
   /// Without odometry: the fastest that the robot moves and turns.
@@ -25,8 +30,11 @@ struct LocaliserConfig {
   }
 };
 
-/// Finds each cloud's pose in a map: tracks from the last pose and the motion since, searches the
-/// whole map when it is lost. Time is the clouds' own. Use from one thread.
+/// Finds each cloud's pose in a map: tracks from the last pose and the motion since, and searches
+/// the whole map when it is lost. As long as one scan cannot tell where it is, candidates live on
+/// over the next scans and the motion between them (AMBIGUOUS), until one of them is sure; then it
+/// tracks. A track is given up when its pose no longer explains what the robot sees. Time is the
+/// clouds' own. Use from one thread.
 class Localiser {
  public:
   /// The map must outlive the localiser; call map_changed() after each change of it.
@@ -47,19 +55,19 @@ class Localiser {
   void forget();
 
  private:
-  struct Track;
+  MotionLimits limits() const;
   Matcher& matcher();
+  const EvidenceMap& evidence();
   static Localisation origin(const Cloud& cloud);
-  // Each also gives the fit of its first mode.
-  Localisation track(const Cloud& cloud, const std::optional<Pose2>& T_odom_base, double& fit);
-  Localisation locate(const Cloud& cloud, double& fit);
-  void remember(const Cloud& cloud, const std::optional<Pose2>& T_odom_base, const Pose2& pose,
-                double fit);
+  // Nothing when the track is lost.
+  std::optional<Localisation> track(const Cloud& cloud, const std::optional<Pose2>& T_odom_base);
 
   const OccupancyMap& map_;
   const LocaliserConfig config_;
   std::unique_ptr<Matcher> matcher_;
-  std::unique_ptr<Track> track_;
+  std::unique_ptr<EvidenceMap> evidence_;
+  std::unique_ptr<PoseTrack> track_;
+  std::unique_ptr<LostSearch> search_;
 };
 
 }  // namespace voxlist

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+namespace voxlist {
+
+/// What scans say for and against a place, as sums of logarithms of odds.
+struct Odds {
+  /// Against other places: a difference of two places' sums is the logarithm of their odds.
+  double place = 0.0;
+  /// That the place is right at all, rather than that no known place is.
+  double found = 0.0;
+
+  Odds& operator+=(const Odds& other);
+};
+
+/// What one scan says for a place of this support (see match_modes.h), where the best other place
+/// of the map has `rival`: a map in which wrong places fit nearly as well proves little. `weight`:
+/// 1 for a scan that nothing is known beside, less for one that saw nearly the same as another did.
+Odds odds_of(double support, double rival, double weight);
+
+/// Probability of each place that it is the right one; what is missing to 1 is for none of them.
+/// Coefficients were fitted by tests/bench/fit_confidence.py.
+std::vector<double> probabilities(std::span<const Odds> places);
+
+}  // namespace voxlist

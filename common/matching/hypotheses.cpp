@@ -1,0 +1,88 @@
+#include "matching/hypotheses.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace voxlist {
+namespace {
+
+// Poses nearer than this are one place; so is a place found again after a motion.
+constexpr double kSamePlace_m = 0.4, kSamePlace_rad = 0.15;
+// Most places that are followed.
+constexpr std::size_t kMostPlaces = 40;
+// Less probable than the best by this factor's logarithm: given up.
+constexpr double kHopeless = 40.0;
+// A scan after the first counts this much once the robot has moved that far (m), and in proportion
+// before: neighbouring scans see the same things, and err together.
+constexpr double kNextWeight = 0.5, kNextDistance_m = 0.5;
+
+bool same_place(const Pose2& a, const Pose2& b) {
+  return distance_m(a, b) < kSamePlace_m && turn_rad(a, b) < kSamePlace_rad;
+}
+
+// The best score of another place.
+double rival_of(const PoseMode& candidate, const std::vector<PoseMode>& all) {
+  double best = 0.0;
+  for (const PoseMode& other : all)
+    if (!same_place(other.T_map_base, candidate.T_map_base)) best = std::max(best, other.support);
+  return best;
+}
+
+}  // namespace
+
+void Hypotheses::clear() { *this = {}; }
+
+void Hypotheses::move(const Pose2& motion) {
+  for (Place& place : places_) place.mode.T_map_base = place.mode.T_map_base * motion;
+  moved_m_ += distance_m({}, motion);
+}
+
+std::vector<PoseMode> Hypotheses::places() const {
+  std::vector<PoseMode> modes;
+  for (const Place& place : places_) modes.push_back(place.mode);
+  return modes;
+}
+
+Odds Hypotheses::past(const Pose2& pose) const {
+  const auto found = std::find_if(places_.begin(), places_.end(), [&](const Place& place) {
+    return same_place(place.mode.T_map_base, pose);
+  });
+  return found == places_.end() ? unlisted_ : found->odds;
+}
+
+void Hypotheses::weigh(const std::vector<PoseMode>& candidates) {
+  const double weight = empty() ? 1.0 : kNextWeight * std::min(1.0, moved_m_ / kNextDistance_m);
+  moved_m_ = 0.0;
+  std::vector<Place> now;
+  double worst = 1.0, best = 0.0;
+  for (const PoseMode& candidate : candidates) {
+    Place place{candidate, past(candidate.T_map_base)};
+    place.odds += odds_of(candidate.support, rival_of(candidate, candidates), weight);
+    now.push_back(place);
+    worst = std::min(worst, candidate.support);
+    best = std::max(best, candidate.support);
+  }
+  // At best as good as the worst that was listed.
+  if (!candidates.empty()) unlisted_ += odds_of(worst, best, weight);
+  std::stable_sort(now.begin(), now.end(),
+                   [](const Place& a, const Place& b) { return a.odds.place > b.odds.place; });
+  places_.clear();
+  for (const Place& place : now) {
+    const bool known = std::any_of(places_.begin(), places_.end(), [&](const Place& other) {
+      return same_place(other.mode.T_map_base, place.mode.T_map_base);
+    });
+    const bool hopeless = place.odds.place < now.front().odds.place - kHopeless;
+    if (!known && !hopeless && places_.size() < kMostPlaces) places_.push_back(place);
+  }
+}
+
+std::vector<PoseMode> Hypotheses::modes() const {
+  std::vector<Odds> odds;
+  for (const Place& place : places_) odds.push_back(place.odds);
+  const std::vector<double> probability = probabilities(odds);
+  std::vector<PoseMode> modes = places();
+  for (std::size_t i = 0; i < modes.size(); ++i) modes[i].probability = probability[i];
+  return modes;
+}
+
+}  // namespace voxlist

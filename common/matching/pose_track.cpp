@@ -1,0 +1,100 @@
+#include "matching/pose_track.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "matching/match_modes.h"
+
+namespace voxlist {
+namespace {
+
+// Lost below this overlap, or below this share of the last fit.
+constexpr double kLeastOverlap = 0.15, kLeastFitShare = 0.4;
+// The window grows to all that motion allows when the fit falls below this share of the last one.
+constexpr double kDoubtfulFitShare = 0.8;
+// Lost when the support falls this far below its running mean.
+constexpr double kScoreDrop = 0.25;
+constexpr double kScoreMemory = 0.7;
+// Scores mean something where the map knows this share of the rays' ends.
+constexpr double kKnownShare = 0.3;
+
+// How far a prediction may be off, beside a share of the motion itself.
+constexpr double kWindow_m = 0.4, kWindow_rad = 0.3;
+constexpr double kWindowShare = 0.2;
+
+// A heavy-tailed prior on the distance from the prediction: decides between poses that fit alike.
+// Odometry is worth more than a guess from the last step.
+struct Prior {
+  double weight, scale_m, scale_rad;
+};
+constexpr Prior kGuess{0.08, 0.5, 0.5}, kOdometry{0.2, 0.1, 0.1};
+
+double prior_cost(const Pose2& pose, const Pose2& predicted, const Prior& prior) {
+  const double d = distance_m(pose, predicted) / prior.scale_m,
+               turn = turn_rad(pose, predicted) / prior.scale_rad;
+  return prior.weight * std::log1p(d * d + turn * turn);
+}
+
+double best_fit(const Match& match) { return match.modes.empty() ? 0.0 : match.modes.front().fit; }
+
+bool map_knows(const Evidence& e) { return e.hits + e.misses >= kKnownShare * e.points; }
+
+}  // namespace
+
+PoseTrack::PoseTrack(const Cloud& cloud, const std::optional<Pose2>& T_odom_base, const Pose2& pose)
+    : utime_us_(cloud.utime_us), pose_(pose), T_odom_base_(T_odom_base) {}
+
+Pose2 PoseTrack::predict(std::int64_t now_us, const std::optional<Pose2>& T_odom_now) const {
+  if (T_odom_base_ && T_odom_now) return pose_ * (T_odom_base_->inverse() * *T_odom_now);
+  const double dt_s = static_cast<double>(now_us - utime_us_) * 1e-6;
+  // Only over steps alike: after a gap the old speed says nothing.
+  return step_s_ > 0.0 && dt_s > 0.0 && dt_s < 2.0 * step_s_ ? pose_ * step_ : pose_;
+}
+
+Match PoseTrack::match(Matcher& matcher, const Cloud& cloud,
+                       const std::optional<Pose2>& T_odom_base, const MotionLimits& limits) const {
+  const Pose2 predicted = predict(cloud.utime_us, T_odom_base);
+  const double half_m = kWindow_m + kWindowShare * distance_m(predicted, pose_);
+  const double half_rad = kWindow_rad + kWindowShare * turn_rad(predicted, pose_);
+  Match match = matcher.match(cloud, PoseWindow{predicted, half_m, half_m, half_rad});
+  if (fit_ == 0.0 || best_fit(match) < kDoubtfulFitShare * fit_) {
+    const double dt_s =
+        std::clamp(static_cast<double>(cloud.utime_us - utime_us_) * 1e-6, 0.1, 3.0);
+    const double reach_m = half_m + limits.speed_mps * dt_s;
+    const double reach_rad = kWindow_rad + limits.turn_rate_radps * dt_s;
+    const Match wide = matcher.match(cloud, PoseWindow{predicted, reach_m, reach_m, reach_rad});
+    match.modes.insert(match.modes.end(), wide.modes.begin(), wide.modes.end());
+    match.certified = match.certified && wide.certified;
+    match.complete = match.complete && wide.complete;
+    match.poses_examined += wide.poses_examined;
+  }
+  const Prior& prior = T_odom_base_ && T_odom_base ? kOdometry : kGuess;
+  const auto score = [&](const MatchMode& mode) {
+    return mode.fit - prior_cost(mode.pose, predicted, prior);
+  };
+  const auto best =
+      std::max_element(match.modes.begin(), match.modes.end(),
+                       [&](const auto& a, const auto& b) { return score(a) < score(b); });
+  if (best != match.modes.end()) std::rotate(match.modes.begin(), best, best + 1);
+  return match;
+}
+
+bool PoseTrack::explains(const MatchMode& mode, const Evidence& evidence) const {
+  if (mode.overlap < kLeastOverlap || mode.fit < kLeastFitShare * fit_) return false;
+  return !score_ || !map_knows(evidence) || support(evidence) >= *score_ - kScoreDrop;
+}
+
+void PoseTrack::advance(const Cloud& cloud, const std::optional<Pose2>& T_odom_base,
+                        const MatchMode& mode, const Evidence& evidence) {
+  step_ = pose_.inverse() * mode.pose;
+  step_s_ = static_cast<double>(cloud.utime_us - utime_us_) * 1e-6;
+  utime_us_ = cloud.utime_us;
+  pose_ = mode.pose;
+  T_odom_base_ = T_odom_base;
+  fit_ = mode.fit;
+  if (!map_knows(evidence)) return;
+  const double score = support(evidence);
+  score_ = score_ ? kScoreMemory * *score_ + (1.0 - kScoreMemory) * score : score;
+}
+
+}  // namespace voxlist

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "geometry/cloud.h"
+#include "matching/evidence.h"
+#include "matching/lost_search.h"
+#include "matching/matcher.h"
+
+namespace voxlist {
+
+/// What tracking goes on from: the last pose, the motion since, and how well scans agreed lately.
+class PoseTrack {
+ public:
+  PoseTrack(const Cloud& cloud, const std::optional<Pose2>& T_odom_base, const Pose2& pose);
+
+  /// Where the robot should be: by odometry, else by the last step.
+  Pose2 predict(std::int64_t now_us, const std::optional<Pose2>& T_odom_now) const;
+
+  /// Matches a cloud round the prediction, in all that motion allows when that is doubtful. Which
+  /// mode is taken weighs its fit against how far the prediction is off; it comes first. Modes may
+  /// be empty.
+  Match match(Matcher& matcher, const Cloud& cloud, const std::optional<Pose2>& T_odom_base,
+              const MotionLimits& limits) const;
+
+  /// Whether a pose explains its scan about as well as those before did. What the map does not know
+  /// is no objection.
+  bool explains(const MatchMode& mode, const Evidence& evidence) const;
+
+  /// Goes on from a pose.
+  void advance(const Cloud& cloud, const std::optional<Pose2>& T_odom_base, const MatchMode& mode,
+               const Evidence& evidence);
+
+ private:
+  std::int64_t utime_us_;
+  Pose2 pose_;
+  std::optional<Pose2> T_odom_base_;
+  // Motion of the last step in base, and how long it took.
+  Pose2 step_;
+  double step_s_ = 0.0;
+  // Of the last cloud; 0: there was nothing to compare with yet.
+  double fit_ = 0.0;
+  // Of the last clouds, a running mean; nothing before one was seen where the map knows much.
+  std::optional<double> score_;
+};
+
+}  // namespace voxlist

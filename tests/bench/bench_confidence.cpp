@@ -1,0 +1,226 @@
+// How honest "how sure" is: single scans, drives of ten scans, and kidnapped robots, in ordinary
+// floors, the same with moved furniture and people, hotels, floors of identical rooms, and scans of
+// buildings that the map is not of.
+// Arguments: scans of each kind and floor, drives of each kind and floor, first seed, last seed,
+// and a file for what fit_confidence.py reads.
+#include <tbb/global_control.h>
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <map>
+#include <numbers>
+#include <string>
+
+#include "bench/test_drive.h"
+#include "bench/test_floor.h"
+#include "matching/localiser.h"
+
+namespace voxlist {
+namespace {
+
+// A pose that is off by less is the right place.
+constexpr double kRight_m = 0.15, kRight_rad = 1.5 * std::numbers::pi / 180.0;
+
+bool right(const Pose2& pose, const Pose2& truth) {
+  return distance_m(pose, truth) < kRight_m && turn_rad(pose, truth) < kRight_rad;
+}
+
+// Index of the right mode, or -1.
+int right_mode(const Localisation& result, const Pose2& truth, bool foreign) {
+  for (std::size_t i = 0; !foreign && i < result.modes.size(); ++i)
+    if (right(result.modes[i].T_map_base, truth)) return static_cast<int>(i);
+  return -1;
+}
+
+// Of one kind of scan, drive or kidnapping.
+struct Tally {
+  int asked = 0, tracking_right = 0, tracking_wrong = 0, ambiguous = 0, ambiguous_listed = 0,
+      lost = 0, first_right = 0;
+
+  void add(const Localisation& result, const Pose2& truth, bool foreign) {
+    const int listed = right_mode(result, truth, foreign);
+    ++asked;
+    first_right += listed == 0;
+    if (result.tracking()) {
+      ++(listed == 0 ? tracking_right : tracking_wrong);
+    } else if (result.state == LocalisationState::kAmbiguous) {
+      ++ambiguous;
+      ambiguous_listed += listed >= 0;
+    } else {
+      ++lost;
+    }
+  }
+
+  void print(const std::string& name) const {
+    std::printf(
+        "%-28s %5d: TRACKING %4d right, %d wrong; AMBIGUOUS %4d (right one listed %4d); LOST %4d; "
+        "first mode right %4d\n",
+        name.c_str(), asked, tracking_right, tracking_wrong, ambiguous, ambiguous_listed, lost,
+        first_right);
+  }
+};
+
+// How often the first mode was right where its probability was said to be so much.
+struct Reliability {
+  struct Bin {
+    int modes = 0, right = 0;
+    double said = 0.0;
+  };
+  static constexpr std::array<double, 9> kUpTo{0.1, 0.3, 0.5, 0.7, 0.9, 0.97, 0.99, 0.999, 1.01};
+  std::array<Bin, kUpTo.size()> bins;
+
+  void add(double said, bool is_right) {
+    std::size_t i = 0;
+    while (said >= kUpTo[i]) ++i;
+    ++bins[i].modes;
+    bins[i].right += is_right;
+    bins[i].said += said;
+  }
+
+  void print() const {
+    std::printf("probability said   scans   said on average   right\n");
+    for (std::size_t i = 0; i < bins.size(); ++i) {
+      if (bins[i].modes == 0) continue;
+      std::printf("below %.3f        %5d             %.3f   %.3f\n", std::min(kUpTo[i], 1.0),
+                  bins[i].modes, bins[i].said / bins[i].modes,
+                  static_cast<double>(bins[i].right) / bins[i].modes);
+    }
+  }
+};
+
+// A few rooms: where little else is there, a wrong pose has few rivals.
+TestFloorConfig small_floor(int seed) {
+  TestFloorConfig config = floor_60_40(seed);
+  config.name = "16 x 13 m, seed " + std::to_string(seed);
+  config.wing.length_m = 16.0;
+  config.wing.rooms = 4;
+  config.wings = 1;
+  return config;
+}
+
+struct Kind {
+  std::string name;
+  bool changed, foreign;
+  int people;
+};
+
+const std::vector<Kind> kKinds{
+    {"ordinary", false, false, 0},     {"changed", true, false, 3},
+    {"foreign", false, true, 0},       {"hotel", false, false, 0},
+    {"hotel changed", true, false, 2}, {"hotel foreign", false, true, 0},
+    {"identical", false, false, 0},    {"small", false, false, 0},
+    {"small changed", true, false, 3}, {"small foreign", false, true, 0},
+};
+
+Building now(const Kind& kind, const TestFloorConfig& config) {
+  if (kind.changed) return later(config);
+  const TestFloorConfig there = kind.foreign ? elsewhere(config) : config;
+  return make_floor(there.wing, there.wings);
+}
+
+class Bench {
+ public:
+  Bench(int scans, int drives, const char* csv) : scans_(scans), drives_(drives) {
+    if (csv) csv_ = std::fopen(csv, "w");
+    if (csv_) std::fprintf(csv_, "kind,seed,query,mode,right,score\n");
+  }
+  ~Bench() {
+    print();
+    if (csv_) std::fclose(csv_);
+  }
+
+  void floor(const TestFloorConfig& config, const std::vector<Kind>& kinds, int seed) {
+    const TestFloor floor = make_test_floor(config);
+    Localiser localiser(floor.map);
+    for (const Kind& kind : kinds) {
+      const Building building = now(kind, config);
+      singles(kind, floor, building, localiser, seed);
+      drives(kind, floor, building, localiser, seed);
+    }
+  }
+
+ private:
+  void singles(const Kind& kind, const TestFloor& floor, const Building& building,
+               Localiser& localiser, int seed) {
+    Random random(4711, static_cast<std::uint64_t>(seed));
+    for (int i = 0; i < scans_;) {
+      const Pose2 truth = free_pose(floor, random);
+      if (building.clearance_m({truth.x_m, truth.y_m}, 0.05, 1.0) < 0.35) continue;
+      const Cloud scan =
+          scan_at(building, truth, kind.people, static_cast<std::uint64_t>(1'000'000 + i));
+      const Localisation result = localiser.locate(scan);
+      singles_[kind.name].add(result, truth, kind.foreign);
+      reliability_.add(result.confidence, right_mode(result, truth, kind.foreign) == 0);
+      write(kind, seed, i, result, truth);
+      ++i;
+    }
+  }
+
+  void write(const Kind& kind, int seed, int query, const Localisation& result,
+             const Pose2& truth) {
+    if (!csv_) return;
+    const int listed = right_mode(result, truth, kind.foreign);
+    for (std::size_t m = 0; m < result.modes.size(); ++m)
+      std::fprintf(csv_, "%s,%d,%d,%zu,%d,%.5f\n", kind.name.c_str(), seed, query, m,
+                   static_cast<int>(m) == listed, result.modes[m].support);
+    std::fflush(csv_);
+  }
+
+  // Until the robot is sure, or ten scans have not sufficed.
+  void drives(const Kind& kind, const TestFloor& floor, const Building& building,
+              Localiser& localiser, int seed) {
+    for (int i = 0; i < drives_; ++i) {
+      const auto way = static_cast<DriveKind>(i % 3);
+      const auto drive = drive_through(floor, building, way, kind.people,
+                                       static_cast<std::uint64_t>(1000 * seed + i));
+      localiser.forget();
+      Localisation result;
+      std::size_t step = 0;
+      do result = localiser.localise(drive[step].scan, drive[step].T_odom_base);
+      while (!result.tracking() && ++step < drive.size());
+      const std::size_t last = std::min(step, drive.size() - 1);
+      drives_by_kind_[kind.name].add(result, drive[last].truth, kind.foreign);
+    }
+  }
+
+  void print() const {
+    for (const auto& [name, tally] : singles_) tally.print(name);
+    for (const auto& [name, tally] : drives_by_kind_) tally.print(name + ", driving");
+    reliability_.print();
+    std::fflush(stdout);
+  }
+
+  const int scans_, drives_;
+  std::FILE* csv_ = nullptr;
+  std::map<std::string, Tally> singles_, drives_by_kind_;
+  Reliability reliability_;
+};
+
+void run(Bench& bench, int first_seed, int last_seed) {
+  for (int seed = first_seed; seed <= last_seed; ++seed) {
+    bench.floor(floor_60_40(seed), {kKinds.begin(), kKinds.begin() + 3}, seed);
+    bench.floor(hotel_floor(seed), {kKinds.begin() + 3, kKinds.begin() + 6}, seed);
+    bench.floor(identical_floor(seed), {kKinds[6]}, seed);
+    bench.floor(small_floor(seed), {kKinds.begin() + 7, kKinds.end()}, seed);
+  }
+}
+
+}  // namespace
+}  // namespace voxlist
+
+int main(int argc, char** argv) {
+  using namespace voxlist;
+  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  // What ctest passes to all benchmarks: one small run.
+  if (argc > 1 && std::strncmp(argv[1], "--", 2) == 0) {
+    Bench(3, 1, nullptr).floor(small_floor(1), {kKinds[7]}, 1);
+    return 0;
+  }
+  const auto argument = [&](int i, int otherwise) {
+    return argc > i ? std::atoi(argv[i]) : otherwise;
+  };
+  Bench bench(argument(1, 20), argument(2, 10), argc > 5 ? argv[5] : nullptr);
+  run(bench, argument(3, 1), argument(4, argument(3, 1)));
+}

@@ -1,0 +1,134 @@
+#!/usr/bin/env python3
+"""Fits the coefficients of common/matching/confidence.cpp to what bench_confidence wrote.
+
+Usage: bench_confidence 40 0 1 5 scans.csv; fit_confidence.py scans.csv...
+
+Two logistic models by maximum likelihood, each damped a little towards 0:
+- which of the listed places is right, where one is: softmax of kPlaceSlope * score;
+- whether the best place is right at all, rather than none that is listed:
+  kFoundBias + kFoundSupport * score + kFoundMargin * margin, margin = how far the best other place is
+  behind, at most kFarBehind.
+Scans are split by seed to show how the fit carries over to buildings that it has not seen.
+"""
+import csv
+import math
+import sys
+from collections import defaultdict
+
+FAR_BEHIND = 0.2
+DAMPING = 1e-4
+
+
+def read(files):
+    """(kind, seed, query) -> [(score, right)], best score first."""
+    scans = defaultdict(list)
+    for name in files:
+        with open(name) as file:
+            for row in csv.DictReader(file):
+                key = row["kind"], int(row["seed"]), int(row["query"])
+                scans[key].append((float(row["score"]), row["right"] == "1"))
+    return {key: sorted(modes, reverse=True) for key, modes in scans.items()}
+
+
+def sigmoid(x):
+    return 1.0 / (1.0 + math.exp(-max(-700.0, min(700.0, x))))
+
+
+def features(modes):
+    rival = modes[1][0] if len(modes) > 1 else 0.0
+    return [1.0, modes[0][0], min(modes[0][0] - rival, FAR_BEHIND)]
+
+
+def shares(modes, slope):
+    weights = [math.exp(slope * (score - modes[0][0])) for score, _ in modes]
+    return [w / sum(weights) for w in weights]
+
+
+def solve(matrix, vector):
+    n = len(vector)
+    rows = [list(matrix[i]) + [vector[i]] for i in range(n)]
+    for i in range(n):
+        pivot = max(range(i, n), key=lambda r: abs(rows[r][i]))
+        rows[i], rows[pivot] = rows[pivot], rows[i]
+        for r in range(n):
+            if r != i:
+                f = rows[r][i] / rows[i][i]
+                rows[r] = [a - f * b for a, b in zip(rows[r], rows[i])]
+    return [rows[i][n] / rows[i][i] for i in range(n)]
+
+
+def fit_found(scans):
+    """Newton's method for: is one of the listed places right?"""
+    w = [0.0, 0.0, 0.0]
+    for _ in range(100):
+        gradient = [-DAMPING * v for v in w]
+        hessian = [[DAMPING * (i == j) for j in range(3)] for i in range(3)]
+        for modes in scans.values():
+            x = features(modes)
+            right = any(r for _, r in modes)
+            p = sigmoid(sum(a * b for a, b in zip(w, x)))
+            for i in range(3):
+                gradient[i] += (right - p) * x[i]
+                for j in range(3):
+                    hessian[i][j] += p * (1 - p) * x[i] * x[j]
+        step = solve(hessian, gradient)
+        w = [a + max(-20.0, min(20.0, b)) for a, b in zip(w, step)]
+        if max(abs(b) for b in step) < 1e-6:
+            break
+    return w
+
+
+def fit_slope(scans):
+    """The slope of most likelihood, by golden section."""
+    listed = [modes for modes in scans.values() if any(r for _, r in modes)]
+
+    def loss(slope):
+        return sum(-math.log(max(1e-300, p)) for modes in listed
+                   for p, (_, r) in zip(shares(modes, slope), modes) if r)
+
+    low, high = 1.0, 1000.0
+    for _ in range(60):
+        a, b = low + 0.382 * (high - low), low + 0.618 * (high - low)
+        if loss(a) < loss(b):
+            high = b
+        else:
+            low = a
+    return (low + high) / 2.0
+
+
+def report(scans, slope, w, limit=0.99):
+    kinds = defaultdict(lambda: [0, 0, 0, 0.0])
+    for (kind, _, _), modes in scans.items():
+        found = sigmoid(sum(a * b for a, b in zip(w, features(modes))))
+        p = found * shares(modes, slope)[0]
+        entry = kinds[kind]
+        entry[0] += 1
+        if modes[0][1]:
+            entry[1] += p >= limit
+        else:
+            entry[2] += p >= limit
+            entry[3] = max(entry[3], p)
+    for kind, (n, right, wrong, worst) in sorted(kinds.items()):
+        print(f"  {kind:16s} {n:4d} scans: sure and right {right:4d}, sure and wrong {wrong}, "
+              f"most said of a wrong one {worst:.4f}")
+
+
+def main():
+    scans = read(sys.argv[1:])
+
+    def run(name, train, test):
+        slope, w = fit_slope(train), fit_found(train)
+        print(f"{name}: kPlaceSlope {slope:.0f}, kFoundBias {w[0]:.1f}, kFoundSupport {w[1]:.1f}, "
+              f"kFoundMargin {w[2]:.1f}")
+        report(test, slope, w)
+
+    even = {k: v for k, v in scans.items() if k[1] % 2 == 0}
+    odd = {k: v for k, v in scans.items() if k[1] % 2 == 1}
+    if even and odd:
+        run("fitted on even seeds, tried on odd ones", even, odd)
+        run("fitted on odd seeds, tried on even ones", odd, even)
+    run("fitted on all", scans, scans)
+
+
+if __name__ == "__main__":
+    main()
