@@ -11,17 +11,17 @@ template <class Word, std::size_t kPlanes>
 struct BitCounters {
   Word planes[kPlanes] = {};
 
-  /// Adds eight words to the counters, each 2^base: seven full adders, then a carry that ripples.
-  void add8(const Word* w, std::size_t base = 0) {
+  /// Adds eight words to the counters: seven full adders, then a carry that ripples.
+  void add8(const Word* w) {
     Word c0, c1, c2, c3, d0, d1, e;
-    Word s = full_add(planes[base], w[0], w[1], c0);
+    Word s = full_add(planes[0], w[0], w[1], c0);
     s = full_add(s, w[2], w[3], c1);
     s = full_add(s, w[4], w[5], c2);
-    planes[base] = full_add(s, w[6], w[7], c3);
-    s = full_add(planes[base + 1], c0, c1, d0);
-    planes[base + 1] = full_add(s, c2, c3, d1);
-    planes[base + 2] = full_add(planes[base + 2], d0, d1, e);
-    for (std::size_t p = base + 3; p < kPlanes; ++p) {
+    planes[0] = full_add(s, w[6], w[7], c3);
+    s = full_add(planes[1], c0, c1, d0);
+    planes[1] = full_add(s, c2, c3, d1);
+    planes[2] = full_add(planes[2], d0, d1, e);
+    for (std::size_t p = 3; p < kPlanes; ++p) {
       const Word overflow = planes[p] & e;
       planes[p] ^= e;
       e = overflow;

@@ -1,20 +1,13 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "matching/coarse_map.h"
 
 namespace voxlist {
 
-/// A coarse cell of a scan, as its bit at translation (0, 0), and how many points are in it.
-struct CoarseCell {
-  std::int64_t bit;
-  std::uint32_t weight;
-};
-
-/// Bit planes of a count: weights may add up to 2^10 - 1.
+/// Bit planes of a count.
 inline constexpr std::size_t kCountPlanes = 10;
 
 /// Counts of all nodes, in bit planes: node (x, y)'s count has its bit p at bit y * row_bits + x of
@@ -30,9 +23,10 @@ enum class Instructions { kPortable, kAvx2, kAvx512 };
 /// The fastest that this processor has.
 Instructions best_instructions();
 
-/// Sums the weights of the cells that fall on marked ones, for every translation of the map by
-/// whole coarse cells.
-NodeCounts coarse_sweep(const CoarseMap& map, std::span<const CoarseCell> cells,
+/// Counts the cells that fall on marked ones, for every translation of the map by whole coarse
+/// cells. A cell is given as its bit at translation (0, 0), CoarseMap::bit(). Precondition: at most
+/// 2^kCountPlanes - 1 of them.
+NodeCounts coarse_sweep(const CoarseMap& map, std::vector<std::int64_t> bits,
                         Instructions instructions);
 
 }  // namespace voxlist

@@ -37,7 +37,7 @@ class ParticleFilterMatcher : public Matcher {
         candidates.push_back(candidate(particle.pose, particle.weight / voxels));
     }
     match.modes = refined(surfels_, scan.points, candidates);
-    weigh(evidence_, cloud, match);
+    weigh(evidence_, choose_evidence_rays(cloud), match);
     return match;
   }
 

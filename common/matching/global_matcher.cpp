@@ -37,12 +37,13 @@ Match GlobalMatcher::match(const Cloud& cloud) {
   const MatchPoints points = choose_match_points(
       cloud,
       {.max_range_m = config_.max_range_m, .spacing_m = 0.1, .max_points = config_.refine_points});
+  const auto rays = choose_evidence_rays(cloud);
   // Most of the way with few points, the best ones the rest.
   match.modes = refined(surfels_, some_of(points, kFewPoints), candidates_of(found, scan.size()));
-  weigh(evidence_, cloud, match);
+  weigh(evidence_, rays, match);
   if (match.modes.size() > kBestModes) match.modes.resize(kBestModes);
   match.modes = refined(surfels_, points, match.modes);
-  weigh(evidence_, cloud, match);
+  weigh(evidence_, rays, match);
   const TolerantMap& cells = map.tolerant();
   match.significance_log10 = log10_significance(
       std::int64_t{cells.size_x()} * cells.size_y() * cells.size_z(), cells.occupied_cells(),
@@ -50,21 +51,26 @@ Match GlobalMatcher::match(const Cloud& cloud) {
   return match;
 }
 
-// How far the scan reaches, in few steps: the map is made ready for each anew, and the lattice
-// depends on it.
+// How far most of the scan reaches, in few steps: the map is made ready for each, and the lattice
+// depends on it. The farthest points would ask for finer angles than they repay.
 double GlobalMatcher::reach_m(std::span<const Eigen::Vector3f> points) const {
-  double farthest_m = 0.0;
-  for (const auto& p : points)
-    farthest_m = std::max(farthest_m, std::hypot(double(p.x()), double(p.y())));
-  double reach_m = 12.0;
-  while (reach_m < std::min(farthest_m, config_.max_range_m)) reach_m *= 2.0;
+  constexpr double kMost = 0.9, kShortest_m = 12.0;
+  double reach_m = kShortest_m;
+  const auto within = [&](const Eigen::Vector3f& p) {
+    return std::hypot(double(p.x()), double(p.y())) <= reach_m;
+  };
+  const double enough = kMost * static_cast<double>(points.size());
+  while (reach_m < config_.max_range_m &&
+         static_cast<double>(std::count_if(points.begin(), points.end(), within)) < enough)
+    reach_m *= 2.0;
   return std::min(reach_m, config_.max_range_m);
 }
 
 const GlobalMap& GlobalMatcher::map_for(double reach_m) {
-  if (!global_map_ || global_map_->coarse().reach_m() != reach_m)
-    global_map_.emplace(map_.occupied, config_.resolution_m, reach_m);
-  return *global_map_;
+  const auto [found, added] = maps_.try_emplace(reach_m);
+  if (added)
+    found->second = std::make_unique<GlobalMap>(map_.occupied, config_.resolution_m, reach_m);
+  return *found->second;
 }
 
 }  // namespace voxlist

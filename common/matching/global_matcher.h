@@ -1,6 +1,7 @@
 #pragma once
 
-#include <optional>
+#include <map>
+#include <memory>
 #include <span>
 
 #include "matching/global_search.h"
@@ -25,7 +26,7 @@ class GlobalMatcher {
   const SurfelMap& surfels_;
   const EvidenceMap evidence_;
   const MatcherConfig config_;
-  std::optional<GlobalMap> global_map_;
+  std::map<double, std::unique_ptr<const GlobalMap>> maps_;  // by reach
 };
 
 }  // namespace voxlist

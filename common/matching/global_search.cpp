@@ -70,10 +70,12 @@ int count_of(const WindowCounters& counters, int lane) {
 class Bounds {
  public:
   Bounds(const CoarseMap& map, const TurnedPoints& points, Instructions instructions)
-      : map_(map), counts_(static_cast<std::size_t>(points.groups())) {
-    tbb::parallel_for(0, points.groups(), [&](std::int32_t group) {
-      counts_[static_cast<std::size_t>(group)] =
-          coarse_sweep(map, points.coarse_cells(group, map), instructions);
+      : map_(map), counts_(static_cast<std::size_t>(points.groups())), highest_(counts_.size()) {
+    tbb::parallel_for(std::size_t{0}, counts_.size(), [&](std::size_t group) {
+      counts_[group] = coarse_sweep(map, points.coarse_cells(static_cast<std::int32_t>(group), map),
+                                    instructions);
+      for (std::size_t word = 0; word < counts_[group].words; ++word)
+        highest_[group].push_back(static_cast<std::uint16_t>(largest(counters_at(group, word))));
     });
   }
 
@@ -82,6 +84,7 @@ class Bounds {
     std::vector<Node> nodes;
     for (std::size_t group = 0; group < counts_.size(); ++group) {
       for (std::size_t word = 0; word < counts_[group].words; ++word) {
+        if (highest_[group][word] < least) continue;
         const WindowCounters counters = counters_at(group, word);
         for (std::uint64_t lanes = lanes_from(counters, least) & ~lanes_from(counters, most + 1);
              lanes != 0; lanes &= lanes - 1) {
@@ -100,9 +103,8 @@ class Bounds {
   // No node's bound is higher.
   int highest() const {
     int best = 0;
-    for (std::size_t group = 0; group < counts_.size(); ++group)
-      for (std::size_t word = 0; word < counts_[group].words; ++word)
-        best = std::max(best, largest(counters_at(group, word)));
+    for (const auto& words : highest_)
+      for (const std::uint16_t highest : words) best = std::max<int>(best, highest);
     return best;
   }
 
@@ -116,7 +118,8 @@ class Bounds {
   }
 
   const CoarseMap& map_;
-  std::vector<NodeCounts> counts_;  // by group
+  std::vector<NodeCounts> counts_;                   // by group
+  std::vector<std::vector<std::uint16_t>> highest_;  // of each word of counts
 };
 
 // Counts the poses of nodes, 64 at a time: for all angles of a node at once on blurred maps, then

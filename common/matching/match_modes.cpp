@@ -60,8 +60,7 @@ double support(const Evidence& evidence) {
          kViolation * evidence.violations / std::max(evidence.rays, 1);
 }
 
-void weigh(const EvidenceMap& map, const Cloud& scan, Match& match) {
-  const auto rays = choose_evidence_rays(scan);
+void weigh(const EvidenceMap& map, const std::vector<EvidenceRay>& rays, Match& match) {
   for (MatchMode& mode : match.modes) {
     mode.evidence = map.at(mode.pose, rays);
     mode.support = support(mode.evidence);

@@ -28,8 +28,8 @@ std::vector<MatchMode> refined(const SurfelMap& surfels, const RayPoints& points
 /// which the map knows anything, less what rays went through. Unknown space hardly counts.
 double support(const Evidence& evidence);
 
-/// Weighs the match's modes with a scan's evidence, and sorts them by it.
-void weigh(const EvidenceMap& map, const Cloud& scan, Match& match);
+/// Weighs the match's modes by a scan's rays, and sorts them by their support.
+void weigh(const EvidenceMap& map, const std::vector<EvidenceRay>& rays, Match& match);
 
 /// The points of a scan that a search, or a refinement, uses.
 MatchPoints chosen_points(std::span<const Eigen::Vector3f> points, const MatcherConfig& config,

@@ -29,7 +29,7 @@ struct MatcherConfig {
   /// Points farther away than this take no part (m).
   double max_range_m = 60.0;
   /// Most points that a search counts, and that a refinement uses. Changes speed, and little else.
-  int search_points = 1000;
+  int search_points = 600;
   int refine_points = 4000;
   /// Most nodes that a search opens before it gives up the certificate. Changes speed: 10 to 40 us
   /// each.

@@ -120,10 +120,11 @@ void overlap_rows(const RowMap& map, std::span<const Voxel> scan, const Translat
   const auto sum_planes = static_cast<std::size_t>(std::bit_width(scan.size()));
   std::vector<std::uint64_t> planes(kSweepPlanes * words), sums(kSumPlanes * words);
   for (std::int64_t row = 0; row < block.rows; ++row) {
-    SweepJob job{map.words() + row * map.row_words(), words, {}, planes.data()};
+    SweepJob job{map.words() + row * map.row_words(), words, nullptr, 0, planes.data()};
     std::fill(sums.begin(), sums.end(), 0);
     for (std::size_t begin = 0; begin < bits.size(); begin += kMostCells) {
-      job.digits[0] = {bits.data() + begin, std::min(kMostCells, bits.size() - begin)};
+      job.bits = bits.data() + begin;
+      job.size = std::min(kMostCells, bits.size() - begin);
       run(job, instructions);
       add_planes(planes, words, sums);
     }

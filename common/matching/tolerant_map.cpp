@@ -33,6 +33,16 @@ std::int32_t voxels_in_cell(const VoxelMap& map, double cell_m) {
   return static_cast<std::int32_t>(std::lround(cell_m / map.resolution_m()));
 }
 
+std::int64_t cells_in(const std::uint8_t* bytes, std::size_t n) {
+  std::int64_t sum = 0;
+  for (std::size_t i = 0; i < n; i += sizeof(std::uint64_t)) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, bytes + i, std::min(sizeof word, n - i));
+    sum += std::popcount(word);
+  }
+  return sum;
+}
+
 }  // namespace
 
 TolerantMap::TolerantMap(const VoxelMap& map, double cell_m, double reach_m)
@@ -91,20 +101,15 @@ void TolerantMap::mark_cells(const VoxelMap& map) {
 
 void TolerantMap::measure_fill() {
   const auto layer_bytes = static_cast<std::size_t>(rows_) * static_cast<std::size_t>(row_bytes_);
-  const auto cells = [](const std::uint8_t* bytes, std::size_t n) {
-    std::int64_t sum = 0;
-    for (std::size_t i = 0; i < n; ++i) sum += std::popcount(bytes[i]);
-    return sum;
-  };
   std::vector<std::uint8_t> plan(layer_bytes);
   for (std::int32_t z = 0; z < size_z_; ++z) {
     const std::uint8_t* layer = bytes_.data() + layer_bytes * static_cast<std::size_t>(z);
     for (std::size_t i = 0; i < layer_bytes; ++i) plan[i] |= layer[i];
-    const std::int64_t occupied = cells(layer, layer_bytes);
+    const std::int64_t occupied = cells_in(layer, layer_bytes);
     fill_.push_back(static_cast<double>(occupied));
     occupied_cells_ += occupied;
   }
-  const auto ground = static_cast<double>(cells(plan.data(), layer_bytes));
+  const auto ground = static_cast<double>(cells_in(plan.data(), layer_bytes));
   for (double& fill : fill_) fill /= ground;
 }
 

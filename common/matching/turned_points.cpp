@@ -13,6 +13,12 @@ constexpr double kTwoPi = 2.0 * std::numbers::pi;
 // So that rounding never makes a point move by more than a cell.
 constexpr double kSlack = 1.001;
 
+// std::floor without a call.
+std::int32_t rounded_down(float value) {
+  const auto whole = static_cast<std::int32_t>(value);
+  return whole - (value < static_cast<float>(whole) ? 1 : 0);
+}
+
 }  // namespace
 
 // Turns points by the angles of a group.
@@ -30,8 +36,8 @@ class TurnedPoints::Turn {
   Cells cells(const Eigen::Vector2f& p) const {
     Cells cells;
     for (std::size_t a = 0; a < cells.size(); ++a) {
-      cells[a] = {static_cast<std::int32_t>(std::floor(cosines_[a] * p.x() - sines_[a] * p.y())),
-                  static_cast<std::int32_t>(std::floor(sines_[a] * p.x() + cosines_[a] * p.y()))};
+      cells[a] = {rounded_down(cosines_[a] * p.x() - sines_[a] * p.y()),
+                  rounded_down(sines_[a] * p.x() + cosines_[a] * p.y())};
     }
     return cells;
   }
@@ -39,6 +45,16 @@ class TurnedPoints::Turn {
   struct Box {
     Cell low, high;
   };
+
+  // Of all cells.
+  static Box box(const Cells& cells) {
+    Box box{cells[0], cells[0]};
+    for (const Cell& cell : cells) {
+      box.low = {std::min(box.low.x, cell.x), std::min(box.low.y, cell.y)};
+      box.high = {std::max(box.high.x, cell.x), std::max(box.high.y, cell.y)};
+    }
+    return box;
+  }
 
   // Of the cells of each part.
   static std::array<Box, kParts> boxes(const Cells& cells) {
@@ -77,25 +93,20 @@ TurnedPoints::TurnedPoints(const TolerantMap& map, std::span<const Eigen::Vector
 
 double TurnedPoints::yaw_rad(std::int32_t angle) const { return kTwoPi * angle / angles(); }
 
-std::vector<CoarseCell> TurnedPoints::coarse_cells(std::int32_t group, const CoarseMap& map) const {
+std::vector<std::int64_t> TurnedPoints::coarse_cells(std::int32_t group,
+                                                     const CoarseMap& map) const {
   const Turn turn(*this, group);
   std::vector<std::int64_t> bits;
   bits.reserve(points_.size());
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    const auto [low, high] = turn.boxes(turn.cells(points_[i]))[0];
+    const auto [low, high] = turn.box(turn.cells(points_[i]));
     // Beyond 16 cells from the coarse cell's start at the node's last translation.
     constexpr std::int32_t kFactor = CoarseMap::kFactor;
     const std::int32_t x = floor_div(low.x, kFactor), y = floor_div(low.y, kFactor);
     bits.push_back(
         map.bit(high.x - x * kFactor > kFactor, high.y - y * kFactor > kFactor, x, y, layers_[i]));
   }
-  std::sort(bits.begin(), bits.end());
-  std::vector<CoarseCell> cells;
-  for (const std::int64_t bit : bits) {
-    if (cells.empty() || cells.back().bit != bit) cells.push_back({bit, 0});
-    ++cells.back().weight;
-  }
-  return cells;
+  return bits;
 }
 
 std::span<const TolerantMap::Place> TurnedPoints::places(std::int32_t group, std::int32_t part) {

@@ -34,8 +34,9 @@ class TurnedPoints {
   std::int32_t groups() const { return groups_; }
   double yaw_rad(std::int32_t angle) const;
 
-  /// The points of a group in coarse cells. Safe from several threads.
-  std::vector<CoarseCell> coarse_cells(std::int32_t group, const CoarseMap& map) const;
+  /// The coarse cells of the points of a group, as bits for coarse_sweep(). Safe from several
+  /// threads.
+  std::vector<std::int64_t> coarse_cells(std::int32_t group, const CoarseMap& map) const;
 
   /// Where the points' windows lie at translation (0, 0), on maps blurred as far as each point
   /// moves within the part: a window tells at which translations the point may hit for one of the

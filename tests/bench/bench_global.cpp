@@ -1,15 +1,19 @@
 // Single scans located in whole simulated floors without a guess: how often right, how often sure,
-// how exact, how long. Arguments: queries for each case, first seed, and "list" for one line a
-// query. CPU time of one thread.
+// how exact, how long. Arguments, each optional: --csv FILE; 60x40, 200x150 or 40x25 (dense scans
+// by a laser that sees all round); queries for each case; seed; "list" for one line a query. CPU
+// time of one thread.
 #include <tbb/global_control.h>
 #include <time.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <numbers>
+#include <stdexcept>
+#include <string>
+#include <vector>
 
+#include "bench/figures.h"
 #include "bench/test_floor.h"
 #include "matching/matcher.h"
 
@@ -31,8 +35,9 @@ double percentile(std::vector<double> values, double share) {
 }
 
 struct Tally {
+  std::string scene, name;
   int queries = 0, right = 0, certified = 0, sure = 0, sure_wrong = 0;
-  std::vector<double> errors_m, times_ms;
+  std::vector<double> errors_m, turns_deg, times_ms;
 
   void add(const Match& match, const Pose2& truth, bool foreign, double ms) {
     ++queries;
@@ -46,65 +51,102 @@ struct Tally {
     right += is_right;
     sure += is_sure;
     sure_wrong += is_sure && !is_right;
-    if (is_right) errors_m.push_back(error_m);
+    if (!is_right) return;
+    errors_m.push_back(error_m);
+    turns_deg.push_back(turn_rad(pose, truth) * 180.0 / std::numbers::pi);
   }
 
-  void print(const std::string& name) const {
-    std::printf(
-        "%-34s right %3d of %3d, sure %3d (wrong %d), certified %3d, error median %.1f mm, CPU ms "
-        "median %.0f p95 %.0f max %.0f\n",
-        name.c_str(), right, queries, sure, sure_wrong, certified, 1e3 * percentile(errors_m, 0.5),
-        percentile(times_ms, 0.5), percentile(times_ms, 0.95), percentile(times_ms, 1.0));
+  std::vector<Figure> figures() const {
+    const auto figure = [this](const char* measure, double value) {
+      return Figure{scene, name, measure, value};
+    };
+    const auto share = [this](int n) { return static_cast<double>(n) / queries; };
+    return {figure("queries", queries),
+            figure("right_share", share(right)),
+            figure("sure_share", share(sure)),
+            figure("sure_and_wrong", sure_wrong),
+            figure("certified_share", share(certified)),
+            figure("error_median_mm", 1e3 * percentile(errors_m, 0.5)),
+            figure("turn_median_deg", percentile(turns_deg, 0.5)),
+            figure("cpu_median_ms", percentile(times_ms, 0.5)),
+            figure("cpu_p95_ms", percentile(times_ms, 0.95)),
+            figure("cpu_max_ms", percentile(times_ms, 1.0))};
+  }
+
+  void print() const {
+    std::printf("  %s\n   ", name.c_str());
+    for (const Figure& f : figures()) std::printf(" %s %.4g", f.measure.c_str(), f.value);
+    std::printf("\n");
     std::fflush(stdout);
   }
 };
 
 void list(const Match& match, const Pose2& truth) {
   if (match.modes.empty()) return;
-  double rival_overlap = 0.0, rival_fit = 0.0;
-  for (std::size_t i = 1; i < match.modes.size(); ++i) {
-    rival_overlap = std::max(rival_overlap, match.modes[i].overlap);
-    rival_fit = std::max(rival_fit, match.modes[i].fit);
-  }
   const MatchMode& best = match.modes.front();
-  std::printf("query: off %.3f m, overlap %.3f then %.3f, fit %.3f then %.3f, complete %d\n",
-              distance_m(best.pose, truth), best.overlap, rival_overlap, best.fit, rival_fit,
+  std::printf("query: off %.3f m, support %.3f, margin %.3f, %zu modes, complete %d\n",
+              distance_m(best.pose, truth), best.support, match.margin, match.modes.size(),
               match.complete);
 }
 
-// Scans of `now` in the floor's map. Poses leave the robot room in both.
-void run(const std::string& name, const TestFloor& floor, Matcher& matcher, const Building& now,
-         bool foreign, int people, int queries, bool listed) {
-  Random random(4711, static_cast<std::uint64_t>(queries));
-  Tally tally;
-  while (tally.queries < queries) {
-    const Pose2 truth = free_pose(floor, random);
-    if (now.clearance_m({truth.x_m, truth.y_m}, 0.05, 1.0) < 0.35) continue;
-    const auto seed = static_cast<std::uint64_t>(1'000'000 + tally.queries);
-    const Cloud scan = scan_at(now, truth, people, seed);
-    const double start_ms = cpu_ms();
-    const Match match = matcher.match(scan, std::nullopt);
-    tally.add(match, truth, foreign, cpu_ms() - start_ms);
-    if (listed) list(match, truth);
-  }
-  tally.print(name);
+struct Case {
+  std::string name;
+  Building building;
+  bool foreign;
+  int people;
+};
+
+Cloud scan_in(const TestFloor& floor, const Case& test, const Pose2& pose, std::uint64_t seed) {
+  return floor.config.map_of_spheres
+             ? sphere_scan_at(test.building, pose, 64'000, test.people, seed)
+             : scan_at(test.building, pose, test.people, seed);
 }
 
-void run_floor(const TestFloorConfig& config, int queries, bool listed) {
+// Poses leave the robot room in the building as it was mapped, and as it is.
+Tally run(const TestFloor& floor, const Case& test, Matcher& matcher, int queries, bool listed) {
+  Random random(4711, static_cast<std::uint64_t>(queries));
+  Tally tally;
+  tally.scene = floor.name;
+  tally.name = test.name;
+  while (tally.queries < queries) {
+    const Pose2 truth = free_pose(floor, random);
+    if (test.building.clearance_m({truth.x_m, truth.y_m}, 0.05, 1.0) < 0.35) continue;
+    const auto seed = static_cast<std::uint64_t>(1'000'000 + tally.queries);
+    const Cloud scan = scan_in(floor, test, truth, seed);
+    const double start_ms = cpu_ms();
+    const Match match = matcher.match(scan, std::nullopt);
+    tally.add(match, truth, test.foreign, cpu_ms() - start_ms);
+    if (listed) list(match, truth);
+  }
+  tally.print();
+  return tally;
+}
+
+std::vector<Figure> run_floor(const TestFloorConfig& config, int queries, bool listed) {
   const TestFloor floor = make_test_floor(config);
+  const std::vector<Case> cases{
+      {"as mapped", floor.building, false, 0},
+      {"changed, three people", later(config), false, 3},
+      {"another building", make_floor(elsewhere(config).wing, config.wings), true, 0}};
   const auto matcher = make_matcher(floor.map, {});
   const double start_ms = cpu_ms();
-  matcher->match(scan_at(floor.building, {}, 0, 1), std::nullopt);
+  matcher->match(scan_in(floor, cases[0], {}, 1), std::nullopt);
   std::printf("%s: %zu voxels, first query with preparation %.0f ms\n", floor.name.c_str(),
               floor.map.occupied.size(), cpu_ms() - start_ms);
-  TestFloorConfig changed = config, foreign = config;
-  changed.wing.changed = 7;
-  foreign.wing.seed += 500;
-  run("  as mapped", floor, *matcher, floor.building, false, 0, queries, listed);
-  run("  changed, three people", floor, *matcher, make_floor(changed.wing, config.wings), false, 3,
-      queries, listed);
-  run("  another building", floor, *matcher, make_floor(foreign.wing, config.wings), true, 0,
-      queries, listed);
+  std::vector<Figure> figures;
+  for (const Case& test : cases) {
+    const auto measured = run(floor, test, *matcher, queries, listed).figures();
+    figures.insert(figures.end(), measured.begin(), measured.end());
+  }
+  return figures;
+}
+
+TestFloorConfig floor_named(const std::string& name, int seed) {
+  if (name == "16x13") return floor_16_13(seed);
+  if (name == "60x40") return floor_60_40(seed);
+  if (name == "200x150") return floor_200_150(seed);
+  if (name == "40x25") return floor_40_25(seed);
+  throw std::invalid_argument("no floor " + name + ": 16x13, 60x40, 200x150, 40x25");
 }
 
 }  // namespace
@@ -112,19 +154,13 @@ void run_floor(const TestFloorConfig& config, int queries, bool listed) {
 
 int main(int argc, char** argv) {
   using namespace voxlist;
+  const auto csv = take_csv_option(argc, argv);
   // What ctest passes to all benchmarks: one small run.
-  const bool brief = argc > 1 && std::strncmp(argv[1], "--", 2) == 0;
+  const bool brief = argc > 1 && std::string(argv[1]).starts_with("--");
+  const std::string name = brief ? "16x13" : argc > 1 ? argv[1] : "60x40";
+  const int queries = brief ? 3 : argc > 2 ? std::atoi(argv[2]) : 50;
+  const int seed = argc > 3 ? std::atoi(argv[3]) : 1;
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-  if (brief) {
-    TestFloorConfig small = floor_60_40(1);
-    small.wing.length_m = 16.0;
-    small.wing.rooms = 4;
-    small.wings = 1;
-    small.name = "16 x 13 m";
-    run_floor(small, 3, false);
-    return 0;
-  }
-  const int queries = argc > 1 ? std::atoi(argv[1]) : 50;
-  const int seed = argc > 2 ? std::atoi(argv[2]) : 1;
-  run_floor(floor_60_40(seed), queries, argc > 3);
+  const auto figures = run_floor(floor_named(name, seed), queries, argc > 4);
+  if (csv) append_csv(*csv, "bench_global", figures);
 }
