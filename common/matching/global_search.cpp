@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <iterator>
+#include <numeric>
 #include <stdexcept>
 
 #include "matching/bit_counters.h"
@@ -17,7 +18,8 @@ namespace {
 constexpr std::int32_t kFactor = CoarseMap::kFactor;
 constexpr std::int32_t kGroup = TurnedPoints::kGroup;
 
-// Nodes are searched in about so many steps of their bounds.
+// The first band of bounds is this part of the points wide; each is twice as wide as the one
+// before.
 constexpr int kBands = 64;
 
 using WindowCounters = BitCounters<std::uint64_t, kCountPlanes>;
@@ -79,7 +81,8 @@ class Bounds {
     });
   }
 
-  // The nodes with a bound from `least` to `most`, by group, y, x.
+  // The nodes with a bound from `least` to `most`: near ones together, that look at the same part
+  // of the map, and then by group, y, x.
   std::vector<Node> nodes_between(int least, int most) const {
     std::vector<Node> nodes;
     for (std::size_t group = 0; group < counts_.size(); ++group) {
@@ -97,7 +100,7 @@ class Bounds {
         }
       }
     }
-    return nodes;
+    return by_tile(nodes);
   }
 
   // No node's bound is higher.
@@ -109,6 +112,21 @@ class Bounds {
   }
 
  private:
+  std::vector<Node> by_tile(const std::vector<Node>& nodes) const {
+    constexpr std::int32_t kTile = 16;
+    const std::int32_t columns = map_.size_x() / kTile + 1;
+    const auto tile_of = [&](const Node& node) {
+      return static_cast<std::size_t>(node.y / kTile * columns + node.x / kTile);
+    };
+    std::vector<std::size_t> ends(static_cast<std::size_t>(columns * (map_.size_y() / kTile + 1)) +
+                                  1);
+    for (const Node& node : nodes) ++ends[tile_of(node) + 1];
+    std::partial_sum(ends.begin(), ends.end(), ends.begin());
+    std::vector<Node> sorted(nodes.size());
+    for (const Node& node : nodes) sorted[ends[tile_of(node)]++] = node;
+    return sorted;
+  }
+
   WindowCounters counters_at(std::size_t group, std::size_t word) const {
     const NodeCounts& counts = counts_[group];
     WindowCounters counters;
@@ -319,13 +337,13 @@ SearchResult global_search(const GlobalMap& map, std::span<const Eigen::Vector3f
         });
   };
 
-  // Bands of bounds, the highest first. The first few nodes give an answer that tells which of the
-  // others can matter.
-  const int band = 1 + static_cast<int>(turned.size()) / kBands;
+  // Bands of bounds, the highest first. The narrow first ones give an answer that tells which of
+  // the other nodes can matter.
+  int band = 1 + static_cast<int>(turned.size()) / kBands;
   int top = bounds.highest();
   std::int64_t nodes = 0;
   result.complete = true;
-  for (; top >= modes.least() && result.complete; top -= band) {
+  for (; top >= modes.least() && result.complete; top -= band, band *= 2) {
     for (const Node& node : bounds.nodes_between(std::max(modes.least(), top - band + 1), top)) {
       if (node.bound < modes.least()) continue;
       if (nodes >= config.max_nodes && modes.best() > 0) {

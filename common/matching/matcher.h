@@ -29,7 +29,7 @@ struct MatcherConfig {
   /// Points farther away than this take no part (m).
   double max_range_m = 60.0;
   /// Most points that a search counts, and that a refinement uses. Changes speed, and little else.
-  int search_points = 600;
+  int search_points = 500;
   int refine_points = 4000;
   /// Most nodes that a search opens before it gives up the certificate. Changes speed: 10 to 40 us
   /// each.
@@ -43,7 +43,7 @@ struct MatcherConfig {
     v("window_resolution_m", window_resolution_m,
       "lattice of poses while tracking; refined after that", 0.02, 1.0);
     v("max_range_m", max_range_m, "points farther away take no part in matching", 1.0, 500.0);
-    v("search_points", search_points, "most points that a search counts: speed", 50, 20000);
+    v("search_points", search_points, "most points that a search counts: speed", 50, 1000);
     v("refine_points", refine_points, "most points that a refinement uses: speed", 50, 100000);
     v("max_nodes", max_nodes, "nodes after which a search gives up its certificate: speed", 100,
       100'000'000);
