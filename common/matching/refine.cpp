@@ -198,6 +198,10 @@ Pose3 refine_pose(const SurfelMap& surfels, const RayPoints& scan, const Pose3& 
     result.converged = step.cwiseProduct(lever_m).norm() < config.converged_m;
   }
   result.covariance = covariance_of(held, config);
+  // Normals that are off by chance drag the pose along what nothing holds, each point a little: as
+  // far as the start knows better, the way is taken back.
+  const Step<kDof> back = -result.covariance * start_information.cwiseProduct(moved);
+  move(back, pose);
   tell_fit(held, scan.points.size(), config.scale_m, result);
   return pose;
 }

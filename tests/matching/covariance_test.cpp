@@ -90,6 +90,18 @@ TEST(Covariance, LeavesACorridorsLongAxisOpen) {
   }
 }
 
+// Nor may such normals drag the pose along it.
+TEST(Refine, StaysWhereItWasAlongABareCorridor) {
+  for (unsigned seed = 1; seed <= 5; ++seed) {
+    NoisyRoom corridor(8.0, 1.1, false, seed);
+    const OccupancyMap map = corridor.map(30'000);
+    const Pose2 start{0.05, 0.03, 0.0};
+    const auto refined = refine(SurfelMap(map), corridor.scan({}, 2000), start);
+    EXPECT_NEAR(refined.pose.x_m, start.x_m, 0.01) << "seed " << seed;
+    EXPECT_NEAR(refined.pose.y_m, 0.0, 0.01) << "seed " << seed;
+  }
+}
+
 TEST(SpatialRefine, RecoversHeightAndTilt) {
   for (unsigned seed = 1; seed <= 5; ++seed) {
     const auto room = synthetic_room(6.0, 5.0, {2.5, 2.0, 0.7}, 8000, seed);
