@@ -1,6 +1,6 @@
 // Scans tracked in a window round a prediction, on a simulated floor of 60 x 40 m mapped at true
-// poses: how exact, how long, and how well the covariance tells the error. Arguments: queries for
-// each case, first seed. CPU time of one thread.
+// poses: how exact, how long, and how well the covariance tells the error. Arguments, each
+// optional: --csv FILE; queries for each case; seed. CPU time of one thread.
 #include <tbb/global_control.h>
 #include <time.h>
 
@@ -8,9 +8,11 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <numbers>
+#include <string>
+#include <vector>
 
+#include "bench/figures.h"
 #include "bench/test_floor.h"
 #include "matching/matcher.h"
 
@@ -19,6 +21,9 @@ namespace {
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr double kFound_m = 0.05;
+// 95 % of a chi-square with three degrees of freedom are below: so many normalised errors should
+// be.
+constexpr double kExpected95 = 7.815;
 
 double cpu_ms() {
   timespec t{};
@@ -33,6 +38,7 @@ double percentile(std::vector<double> values, double share) {
 }
 
 struct Tally {
+  std::string scene, name;
   int queries = 0, found = 0, certified = 0;
   std::vector<double> errors_m, turns_rad, normalised, times_ms;
 
@@ -51,22 +57,36 @@ struct Tally {
       normalised.push_back(off.dot(best.covariance.ldlt().solve(off)));
   }
 
-  void print(const char* name) const {
-    double sum = 0.0;
-    for (const double value : normalised) sum += value;
-    const auto below = std::count_if(normalised.begin(), normalised.end(),
-                                     [](double value) { return value < 7.815; });
-    const auto count = std::max<double>(1.0, static_cast<double>(normalised.size()));
-    std::printf(
-        "%-28s found %3d of %3d, certified %3d; error mm median %.2f p90 %.1f p99 %.1f max %.1f, "
-        "deg median %.3f p99 %.3f; NEES mean %.2f, %.1f %% below 7.8; CPU ms median %.2f p95 %.2f "
-        "max %.2f\n",
-        name, found, queries, certified, 1e3 * percentile(errors_m, 0.5),
-        1e3 * percentile(errors_m, 0.9), 1e3 * percentile(errors_m, 0.99),
-        1e3 * percentile(errors_m, 1.0), kDegrees * percentile(turns_rad, 0.5),
-        kDegrees * percentile(turns_rad, 0.99), sum / count,
-        100.0 * static_cast<double>(below) / count, percentile(times_ms, 0.5),
-        percentile(times_ms, 0.95), percentile(times_ms, 1.0));
+  std::vector<Figure> figures() const {
+    const auto figure = [this](const char* measure, double value) {
+      return Figure{scene, name, measure, value};
+    };
+    const auto share = [this](int n) { return static_cast<double>(n) / queries; };
+    const auto mean = [this](auto&& value) {
+      double sum = 0.0;
+      for (const double n : normalised) sum += value(n);
+      return sum / std::max<double>(1.0, static_cast<double>(normalised.size()));
+    };
+    return {figure("queries", queries),
+            figure("found_share", share(found)),
+            figure("certified_share", share(certified)),
+            figure("error_median_mm", 1e3 * percentile(errors_m, 0.5)),
+            figure("error_p90_mm", 1e3 * percentile(errors_m, 0.9)),
+            figure("error_p99_mm", 1e3 * percentile(errors_m, 0.99)),
+            figure("error_max_mm", 1e3 * percentile(errors_m, 1.0)),
+            figure("turn_median_deg", kDegrees * percentile(turns_rad, 0.5)),
+            figure("turn_p99_deg", kDegrees * percentile(turns_rad, 0.99)),
+            figure("nees_mean", mean([](double n) { return n; })),
+            figure("nees_in_95_share", mean([](double n) { return n < kExpected95 ? 1.0 : 0.0; })),
+            figure("cpu_median_ms", percentile(times_ms, 0.5)),
+            figure("cpu_p95_ms", percentile(times_ms, 0.95)),
+            figure("cpu_max_ms", percentile(times_ms, 1.0))};
+  }
+
+  void print() const {
+    std::printf("  %s\n   ", name.c_str());
+    for (const Figure& f : figures()) std::printf(" %s %.4g", f.measure.c_str(), f.value);
+    std::printf("\n");
     std::fflush(stdout);
   }
 };
@@ -78,10 +98,12 @@ struct Case {
   int people;
 };
 
-void run(const Case& test, const TestFloor& floor, const Building& now, Matcher& matcher,
-         int queries) {
+std::vector<Figure> run(const Case& test, const TestFloor& floor, const Building& now,
+                        Matcher& matcher, int queries) {
   Random random(4711, static_cast<std::uint64_t>(queries));
   Tally tally;
+  tally.scene = floor.name;
+  tally.name = test.name;
   while (tally.queries < queries) {
     const Pose2 truth = free_pose(floor, random);
     if (now.clearance_m({truth.x_m, truth.y_m}, 0.05, 1.0) < 0.35) continue;
@@ -99,20 +121,22 @@ void run(const Case& test, const TestFloor& floor, const Building& now, Matcher&
     const Match match = matcher.match(scan, window);
     tally.add(match, truth, cpu_ms() - start_ms);
   }
-  tally.print(test.name);
+  tally.print();
+  return tally.figures();
 }
 
-void run_floor(const TestFloorConfig& config, int queries) {
+std::vector<Figure> run_floor(const TestFloorConfig& config, int queries) {
   const TestFloor floor = make_test_floor(config);
   const auto matcher = make_matcher(floor.map, {});
   std::printf("%s: %zu voxels\n", floor.name.c_str(), floor.map.occupied.size());
-  TestFloorConfig changed = config;
-  changed.wing.changed = 7;
-  const Building later = make_floor(changed.wing, config.wings);
-  run({"  off 0.3 m, 10 deg", 0.3, 0.17, 0.4, 0.3, 0}, floor, floor.building, *matcher, queries);
-  run({"  the same, changed, people", 0.3, 0.17, 0.4, 0.3, 3}, floor, later, *matcher, queries);
-  run({"  off 1 m, 90 deg", 1.0, std::numbers::pi / 2.0, 1.2, std::numbers::pi, 0}, floor,
-      floor.building, *matcher, queries);
+  constexpr Case kOff{"off 0.3 m, 10 deg", 0.3, 0.17, 0.4, 0.3, 0};
+  constexpr Case kChanged{"off 0.3 m, 10 deg, changed, three people", 0.3, 0.17, 0.4, 0.3, 3};
+  constexpr Case kFarOff{"off 1 m, 90 deg", 1.0, std::numbers::pi / 2.0, 1.2, std::numbers::pi, 0};
+  std::vector<Figure> figures = run(kOff, floor, floor.building, *matcher, queries);
+  for (const auto& more : {run(kChanged, floor, later(config), *matcher, queries),
+                           run(kFarOff, floor, floor.building, *matcher, queries)})
+    figures.insert(figures.end(), more.begin(), more.end());
+  return figures;
 }
 
 }  // namespace
@@ -120,19 +144,12 @@ void run_floor(const TestFloorConfig& config, int queries) {
 
 int main(int argc, char** argv) {
   using namespace voxlist;
+  const auto csv = take_csv_option(argc, argv);
   // What ctest passes to all benchmarks: one small run.
-  const bool brief = argc > 1 && std::strncmp(argv[1], "--", 2) == 0;
+  const bool brief = argc > 1 && std::string(argv[1]).starts_with("--");
+  const int queries = brief ? 3 : argc > 1 ? std::atoi(argv[1]) : 100;
+  const int seed = !brief && argc > 2 ? std::atoi(argv[2]) : 1;
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-  if (brief) {
-    TestFloorConfig small = floor_60_40(1);
-    small.wing.length_m = 16.0;
-    small.wing.rooms = 4;
-    small.wings = 1;
-    small.name = "16 x 13 m";
-    run_floor(small, 3);
-    return 0;
-  }
-  const int queries = argc > 1 ? std::atoi(argv[1]) : 100;
-  const int seed = argc > 2 ? std::atoi(argv[2]) : 1;
-  run_floor(floor_60_40(seed), queries);
+  const auto figures = run_floor(brief ? floor_16_13(seed) : floor_60_40(seed), queries);
+  if (csv) append_csv(*csv, "bench_tracking", figures);
 }
