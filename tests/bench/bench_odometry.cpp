@@ -1,15 +1,18 @@
 // Scan-by-scan mapping without odometry: each scan is localised in the map of those before it, and
 // added to it. How far off the end is after 24 m with turns of up to 24 deg a scan, and how long a
-// scan takes. Arguments: first seed, number of seeds. CPU time of one thread.
+// scan takes. Arguments, each optional: --csv FILE; first seed; number of seeds. CPU time of one
+// thread.
 #include <tbb/global_control.h>
 #include <time.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <numbers>
+#include <string>
+#include <vector>
 
+#include "bench/figures.h"
 #include "bench/test_floor.h"
 #include "mapping/map_builder.h"
 #include "matching/localiser.h"
@@ -61,7 +64,7 @@ std::vector<Pose2> free_path(const Building& building, double length_m) {
   return path;
 }
 
-void run(const BuildingConfig& config, double length_m) {
+std::vector<Figure> run(const BuildingConfig& config, double length_m) {
   const Building building = make_building(config);
   const std::vector<Pose2> path = free_path(building, length_m);
   MapBuilder map;
@@ -95,13 +98,24 @@ void run(const BuildingConfig& config, double length_m) {
   std::vector<double> both;
   for (std::size_t i = 0; i < std::min(match_ms.size(), map_ms.size()); ++i)
     both.push_back(match_ms[i] + map_ms[i]);
-  std::printf(
-      "seed %d: %zu scans, lost %d, end off %.3f m %.2f deg, worst %.3f m; CPU ms a scan: matching "
-      "%.1f, mapping %.1f, both %.1f, p95 %.1f\n",
-      config.seed, path.size(), lost, end_m, end_rad * 180.0 / std::numbers::pi, worst_m,
-      percentile(match_ms, 0.5), percentile(map_ms, 0.5), percentile(both, 0.5),
-      percentile(both, 0.95));
+  const std::string scene = "wing, seed " + std::to_string(config.seed);
+  const auto figure = [&](const char* measure, double value) {
+    return Figure{scene, "scan by scan, no odometry", measure, value};
+  };
+  const std::vector<Figure> figures{figure("scans", static_cast<double>(path.size())),
+                                    figure("lost", lost),
+                                    figure("end_off_m", end_m),
+                                    figure("end_off_deg", end_rad * 180.0 / std::numbers::pi),
+                                    figure("worst_off_m", worst_m),
+                                    figure("matching_cpu_median_ms", percentile(match_ms, 0.5)),
+                                    figure("mapping_cpu_median_ms", percentile(map_ms, 0.5)),
+                                    figure("both_cpu_median_ms", percentile(both, 0.5)),
+                                    figure("both_cpu_p95_ms", percentile(both, 0.95))};
+  std::printf("%s\n   ", scene.c_str());
+  for (const Figure& f : figures) std::printf(" %s %.4g", f.measure.c_str(), f.value);
+  std::printf("\n");
   std::fflush(stdout);
+  return figures;
 }
 
 }  // namespace
@@ -109,14 +123,18 @@ void run(const BuildingConfig& config, double length_m) {
 
 int main(int argc, char** argv) {
   using namespace voxlist;
+  const auto csv = take_csv_option(argc, argv);
   // What ctest passes to all benchmarks: one small run.
-  const bool brief = argc > 1 && std::strncmp(argv[1], "--", 2) == 0;
+  const bool brief = argc > 1 && std::string(argv[1]).starts_with("--");
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
   const int first = !brief && argc > 1 ? std::atoi(argv[1]) : 1;
-  const int seeds = !brief && argc > 2 ? std::atoi(argv[2]) : brief ? 1 : 5;
+  const int seeds = brief ? 1 : argc > 2 ? std::atoi(argv[2]) : 5;
+  std::vector<Figure> figures;
   for (int seed = first; seed < first + seeds; ++seed) {
     BuildingConfig config;
     config.seed = seed;
-    run(config, brief ? 3.0 : 24.0);
+    const auto measured = run(config, brief ? 3.0 : 24.0);
+    figures.insert(figures.end(), measured.begin(), measured.end());
   }
+  if (csv) append_csv(*csv, "bench_odometry", figures);
 }
