@@ -42,11 +42,24 @@ std::vector<voxel_block_t> to_messages(const VoxelMap& map, const std::vector<Vo
   return messages;
 }
 
-bool set_blocks(const std::vector<voxel_block_t>& blocks, VoxelMap& map) {
-  bool changed = false;
-  for (const voxel_block_t& block : blocks)
-    changed |= map.set_block({block.x, block.y, block.z}, bits_of(block));
-  return changed;
+// Whether all of one block's voxels are another's as well.
+bool holds(const VoxelBlock& block, const VoxelBlock* other) {
+  for (std::size_t i = 0; other && i < block.size(); ++i)
+    if ((*other)[i] & ~block[i]) return false;
+  return true;
+}
+
+// Whether nothing went. Appends what changed.
+bool set_blocks(const std::vector<voxel_block_t>& blocks, VoxelMap& map,
+                std::vector<Voxel>& changed) {
+  bool grew = true;
+  for (const voxel_block_t& message : blocks) {
+    const Voxel position{message.x, message.y, message.z};
+    const VoxelBlock bits = bits_of(message);
+    grew = grew && holds(bits, map.find_block(position));
+    if (map.set_block(position, bits)) changed.push_back(position);
+  }
+  return grew;
 }
 
 }  // namespace
@@ -63,15 +76,15 @@ MapBlocks to_messages(const OccupancyMap& map, const ChangedBlocks& positions) {
   return {to_messages(map.occupied, positions.occupied), to_messages(map.passed, positions.passed)};
 }
 
-bool apply(const MapChange& change, OccupancyMap& map) {
-  bool changed = false;
-  if (change.is_whole()) {
-    changed = !map.occupied.empty() || !map.passed.empty();
+AppliedChange apply(const MapChange& change, OccupancyMap& map) {
+  AppliedChange applied{.replaced = change.is_whole(), .grown = {}};
+  if (applied.replaced)
     map = {VoxelMap(change.resolution.occupied_m), VoxelMap(change.resolution.passed_m)};
-  }
-  changed |= set_blocks(change.blocks.occupied, map.occupied);
-  changed |= set_blocks(change.blocks.passed, map.passed);
-  return changed;
+  const bool occupied_grew =
+                 set_blocks(change.blocks.occupied, map.occupied, applied.grown.occupied),
+             passed_grew = set_blocks(change.blocks.passed, map.passed, applied.grown.passed);
+  applied.replaced |= !occupied_grew || !passed_grew;
+  return applied;
 }
 
 }  // namespace voxlist

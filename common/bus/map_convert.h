@@ -14,9 +14,16 @@ MapBlocks to_messages(const OccupancyMap& map);
 /// left out.
 MapBlocks to_messages(const OccupancyMap& map, const ChangedBlocks& positions);
 
+/// What a change did to a map.
+struct AppliedChange {
+  /// The map is another one now, or has lost something.
+  bool replaced = false;
+  /// Else the blocks that have gained something; none: nothing changed.
+  ChangedBlocks grown;
+};
+
 /// Brings a map to the change's version: a whole change replaces it, others set their blocks.
-/// Returns whether a voxel or a passed cell changed. Precondition: the change builds on the map, as
-/// MapAssembler sees to.
-bool apply(const MapChange& change, OccupancyMap& map);
+/// Precondition: the change builds on the map, as MapAssembler sees to.
+AppliedChange apply(const MapChange& change, OccupancyMap& map);
 
 }  // namespace voxlist

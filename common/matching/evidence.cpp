@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
+
+#include "matching/fast_cell.h"
+#include "matching/numbering.h"
 
 namespace voxlist {
 namespace {
@@ -80,31 +82,35 @@ bool touches(const VoxelBlock& block, const Voxel& v) {
   return false;
 }
 
+struct InCube {
+  std::uint64_t key;
+  std::size_t i;
+};
+
+// The first point of each cube, by layers first.
+std::vector<InCube> first_in_cubes(const Cloud& scan, double spacing_m) {
+  Numbering numbers(scan.points.size());
+  std::vector<InCube> firsts;
+  for (std::size_t i = 0; i < scan.points.size(); ++i) {
+    const auto& p = scan.points[i];
+    if (!in_lattice(p, kFinestResolution_m) || !in_lattice(scan.origin(i), kFinestResolution_m))
+      continue;
+    const std::uint64_t key = key_of(cell_at(p, 1.0 / spacing_m));
+    if (numbers.number(key) == firsts.size()) firsts.push_back({key, i});
+  }
+  std::sort(firsts.begin(), firsts.end(), [](auto& a, auto& b) { return a.key < b.key; });
+  return firsts;
+}
+
 }  // namespace
 
 std::vector<EvidenceRay> choose_evidence_rays(const Cloud& scan, std::size_t most,
                                               double spacing_m) {
-  struct InCube {
-    Voxel cube;
-    std::size_t i;
-  };
-  std::vector<InCube> in_cubes;
-  for (std::size_t i = 0; i < scan.points.size(); ++i) {
-    const auto& p = scan.points[i];
-    if (in_lattice(p, kFinestResolution_m) && in_lattice(scan.origin(i), kFinestResolution_m))
-      in_cubes.push_back({voxel_at(p, spacing_m), i});
-  }
-  // By layers first.
-  std::sort(in_cubes.begin(), in_cubes.end(), [](const InCube& a, const InCube& b) {
-    return std::tie(a.cube.z, a.cube.y, a.cube.x, a.i) <
-           std::tie(b.cube.z, b.cube.y, b.cube.x, b.i);
-  });
-  in_cubes.erase(std::unique(in_cubes.begin(), in_cubes.end(),
-                             [](const InCube& a, const InCube& b) { return a.cube == b.cube; }),
-                 in_cubes.end());
+  const std::vector<InCube> in_cubes = first_in_cubes(scan, spacing_m);
   std::vector<std::pair<std::size_t, std::size_t>> layers;  // begin, end
   for (std::size_t i = 0; i < in_cubes.size(); ++i) {
-    if (i == 0 || in_cubes[i].cube.z != in_cubes[i - 1].cube.z) layers.emplace_back(i, i);
+    if (i == 0 || layer_of(in_cubes[i].key) != layer_of(in_cubes[i - 1].key))
+      layers.emplace_back(i, i);
     layers.back().second = i + 1;
   }
   // The largest cap that `most` allow.
@@ -128,6 +134,21 @@ std::vector<EvidenceRay> choose_evidence_rays(const Cloud& scan, std::size_t mos
 
 EvidenceMap::EvidenceMap(const OccupancyMap& map)
     : map_(map), filled_(filled_cells(map.occupied, shift_)) {}
+
+void EvidenceMap::map_grew(const ChangedBlocks& grown) {
+  for (const Voxel& block : grown.occupied) {
+    const Voxel cell = cell_of(block);
+    filled_.set(cell);
+    if (filled_.test(cell)) continue;
+    // Beyond the box.
+    filled_ = filled_cells(map_.occupied, shift_);
+    return;
+  }
+}
+
+Voxel EvidenceMap::cell_of(const Voxel& block) const {
+  return {block.x >> shift_, block.y >> shift_, block.z >> shift_};
+}
 
 Evidence EvidenceMap::at(const Pose2& pose, const std::vector<EvidenceRay>& rays) const {
   Evidence sum;
@@ -170,8 +191,7 @@ bool EvidenceMap::hit(const Eigen::Vector3d& end) const {
 
 bool EvidenceMap::in_matter(const Voxel& voxel) const {
   const Voxel position = block_of(voxel);
-  if (!filled_.test({position.x >> shift_, position.y >> shift_, position.z >> shift_}))
-    return false;
+  if (!filled_.test(cell_of(position))) return false;
   const VoxelBlock* block = map_.occupied.find_block(position);
   if (!block) return false;
   const auto z = static_cast<std::size_t>(voxel.z & 6);

@@ -38,16 +38,20 @@ struct EvidenceRay {
 std::vector<EvidenceRay> choose_evidence_rays(const Cloud& scan, std::size_t most = 600,
                                               double spacing_m = 0.2);
 
-/// A map made ready for weighing poses; rebuild it after the map has changed. The map must outlive
-/// it. Reading from several threads is safe.
+/// A map made ready for weighing poses. The map must outlive it; when it changes but by growing,
+/// make another one. Reading from several threads is safe.
 class EvidenceMap {
  public:
   explicit EvidenceMap(const OccupancyMap& map);
+
+  /// These blocks of the map have gained something.
+  void map_grew(const ChangedBlocks& grown);
 
   /// About 0.2 ms for 600 rays of 4 m.
   Evidence at(const Pose2& T_map_base, const std::vector<EvidenceRay>& rays) const;
 
  private:
+  Voxel cell_of(const Voxel& block) const;
   bool hit(const Eigen::Vector3d& end) const;
   bool in_matter(const Voxel& voxel) const;
   bool violated(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const;

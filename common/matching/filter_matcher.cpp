@@ -12,16 +12,13 @@ namespace {
 class ParticleFilterMatcher : public Matcher {
  public:
   ParticleFilterMatcher(const OccupancyMap& map, const MatcherConfig& config)
-      : config_(config),
-        filter_(map.occupied, {.final_factor = final_factor(map.occupied, config)}),
-        box_(map.occupied, {.resolution_m = config.resolution_m, .levels = 0}),
-        surfels_(map),
-        evidence_(map) {}
+      : map_(map), config_(config) {}
 
   Match match(const Cloud& cloud, const std::optional<PoseWindow>& window) override {
     const MatchPoints scan = chosen_points(cloud.points, config_, 0.05, config_.refine_points);
     if (scan.points.size() < kFewestMatchPoints) return {};
-    const auto found = filter_.localise(scan.points, window.value_or(whole_map(box_)));
+    const auto found =
+        ready().filter.localise(scan.points, window.value_or(whole_map(map_.occupied)));
     Match match;
     for (const auto& level : found.levels)
       match.poses_examined += static_cast<std::int64_t>(level.particles);
@@ -36,22 +33,38 @@ class ParticleFilterMatcher : public Matcher {
       if (!holds(candidates, particle.pose))
         candidates.push_back(candidate(particle.pose, particle.weight / voxels));
     }
-    match.modes = refined(surfels_, scan.points, candidates);
-    weigh(evidence_, choose_evidence_rays(cloud), match);
+    match.modes = refined(ready().surfels, scan.points, candidates);
+    weigh(ready().evidence, choose_evidence_rays(cloud), match);
     return match;
   }
 
+  void map_grew(const ChangedBlocks&) override { ready_.reset(); }
+
  private:
+  // What is made of the map.
+  struct Ready {
+    ParticleFilter filter;
+    SurfelMap surfels;
+    EvidenceMap evidence;
+  };
+
+  Ready& ready() {
+    if (!ready_) {
+      ready_.reset(new Ready{
+          ParticleFilter(map_.occupied, {.final_factor = final_factor(map_.occupied, config_)}),
+          SurfelMap(map_), EvidenceMap(map_)});
+    }
+    return *ready_;
+  }
+
   static int final_factor(const VoxelMap& map, const MatcherConfig& config) {
     const double factor = config.resolution_m / map.resolution_m();
     return 1 << std::clamp(static_cast<int>(std::lround(std::log2(factor))), 0, 6);
   }
 
+  const OccupancyMap& map_;
   const MatcherConfig config_;
-  const ParticleFilter filter_;
-  const SearchMap box_;
-  const SurfelMap surfels_;
-  const EvidenceMap evidence_;
+  std::unique_ptr<Ready> ready_;
 };
 
 }  // namespace

@@ -15,7 +15,7 @@ constexpr std::size_t kFewPoints = 400;
 
 GlobalMatcher::GlobalMatcher(const OccupancyMap& map, const SurfelMap& surfels,
                              const MatcherConfig& config)
-    : map_(map), surfels_(surfels), evidence_(map), config_(config) {}
+    : map_(map), surfels_(surfels), config_(config) {}
 
 Match GlobalMatcher::match(const Cloud& cloud) {
   const GlobalMap& map = map_for(reach_m(cloud.points));
@@ -38,17 +38,23 @@ Match GlobalMatcher::match(const Cloud& cloud) {
       cloud,
       {.max_range_m = config_.max_range_m, .spacing_m = 0.1, .max_points = config_.refine_points});
   const auto rays = choose_evidence_rays(cloud);
+  if (!evidence_) evidence_.emplace(map_);
   // Most of the way with few points, the best ones the rest.
   match.modes = refined(surfels_, some_of(points, kFewPoints), candidates_of(found, scan.size()));
-  weigh(evidence_, rays, match);
+  weigh(*evidence_, rays, match);
   if (match.modes.size() > kBestModes) match.modes.resize(kBestModes);
   match.modes = refined(surfels_, points, match.modes);
-  weigh(evidence_, rays, match);
+  weigh(*evidence_, rays, match);
   const TolerantMap& cells = map.tolerant();
   match.significance_log10 = log10_significance(
       std::int64_t{cells.size_x()} * cells.size_y() * cells.size_z(), cells.occupied_cells(),
       scan.size(), found.modes.front().overlap, found.lattice_poses);
   return match;
+}
+
+void GlobalMatcher::map_changed() {
+  maps_.clear();
+  evidence_.reset();
 }
 
 // How far most of the scan reaches, in few steps: the map is made ready for each, and the lattice

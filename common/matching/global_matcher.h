@@ -2,6 +2,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "matching/global_search.h"
@@ -18,14 +19,17 @@ class GlobalMatcher {
 
   Match match(const Cloud& scan);
 
+  /// The next match makes the map ready again.
+  void map_changed();
+
  private:
   double reach_m(std::span<const Eigen::Vector3f> points) const;
   const GlobalMap& map_for(double reach_m);
 
   const OccupancyMap& map_;
   const SurfelMap& surfels_;
-  const EvidenceMap evidence_;
   const MatcherConfig config_;
+  std::optional<EvidenceMap> evidence_;
   std::map<double, std::unique_ptr<const GlobalMap>> maps_;  // by reach
 };
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "matching/coarse_sweep.h"
-#include "matching/search.h"
+#include "matching/search_result.h"
 #include "matching/tolerant_map.h"
 
 namespace voxlist {

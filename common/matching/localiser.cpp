@@ -43,6 +43,11 @@ void Localiser::map_changed() {
   evidence_.reset();
 }
 
+void Localiser::map_grew(const ChangedBlocks& grown) {
+  if (matcher_) matcher_->map_grew(grown);
+  if (evidence_) evidence_->map_grew(grown);
+}
+
 void Localiser::forget() {
   track_.reset();
   search_.reset();

@@ -37,12 +37,17 @@ struct LocaliserConfig {
 /// clouds' own. Use from one thread.
 class Localiser {
  public:
-  /// The map must outlive the localiser; call map_changed() after each change of it.
+  /// The map must outlive the localiser; call map_grew() or map_changed() after each change of it.
   Localiser(const OccupancyMap& map, const LocaliserConfig& config = {});
   ~Localiser();
 
-  /// The map is another one now. The next cloud pays for making it ready (tens of milliseconds).
+  /// The map is another one now, or has lost something. The next cloud pays for making it ready
+  /// (tens of milliseconds).
   void map_changed();
+
+  /// These blocks of the map have gained something, and none have lost any. The next cloud's
+  /// result is the same as after map_changed(), and comes sooner.
+  void map_grew(const ChangedBlocks& grown);
 
   /// Locates a cloud (in base). `T_odom_base`: odometry's pose at the cloud's time, if there is
   /// odometry. In an empty map the cloud defines the map frame: TRACKING at the identity.

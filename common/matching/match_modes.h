@@ -5,6 +5,7 @@
 
 #include "matching/matcher.h"
 #include "matching/refine.h"
+#include "matching/search_result.h"
 #include "matching/surfels.h"
 
 // What all engines do with the poses that they have found.

@@ -12,14 +12,6 @@ namespace {
 
 using Indices = std::vector<std::uint32_t>;
 
-// Ascending by layer, then row. Coordinates fit 21 bits a finest voxel apart within the lattice.
-std::uint64_t key_of(const Voxel& v) {
-  const auto part = [](std::int32_t value) {
-    return static_cast<std::uint64_t>(value + (1 << 20)) & 0x1fffff;
-  };
-  return part(v.z) << 42 | part(v.y) << 21 | part(v.x);
-}
-
 // Which point of a cell is kept: none is nearer to one side of the cell than to another, which the
 // first by its coordinates would be (and pull the pose along by millimetres).
 std::uint64_t lot(const Eigen::Vector3f& p) {
@@ -123,7 +115,7 @@ std::vector<std::span<const InCell>> layers_of(std::span<const InCell> cells) {
   std::vector<std::span<const InCell>> layers;
   for (std::size_t from = 0; from < cells.size();) {
     std::size_t to = from;
-    while (to < cells.size() && cells[to].key >> 42 == cells[from].key >> 42) ++to;
+    while (to < cells.size() && layer_of(cells[to].key) == layer_of(cells[from].key)) ++to;
     layers.push_back(cells.subspan(from, to - from));
     from = to;
   }

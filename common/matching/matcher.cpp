@@ -18,8 +18,14 @@ class SearchMatcher : public Matcher {
     return window ? window_.match(scan, *window) : global_.match(scan);
   }
 
+  void map_grew(const ChangedBlocks& grown) override {
+    surfels_.map_changed();
+    global_.map_changed();
+    window_.map_grew(grown);
+  }
+
  private:
-  const SurfelMap surfels_;
+  SurfelMap surfels_;
   GlobalMatcher global_;
   WindowMatcher window_;
 };

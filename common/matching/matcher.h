@@ -8,7 +8,7 @@
 
 #include "geometry/cloud.h"
 #include "matching/evidence.h"
-#include "matching/search.h"
+#include "matching/pose_window.h"
 #include "voxels/occupancy_map.h"
 
 namespace voxlist {
@@ -22,10 +22,9 @@ struct MatcherConfig {
   /// a cloud).
   std::string engine = "search";
   /// Cell of the tolerant map and lattice of the poses (m) in a search of the whole map (doubled
-  /// for scans that reach far), and in a window around a prediction; refinement goes on from there.
-  /// Finer: fewer false modes, and the cube of the ratio slower.
+  /// for scans that reach far); refinement goes on from there. Finer: fewer false modes, and the
+  /// cube of the ratio slower.
   double resolution_m = 0.04;
-  double window_resolution_m = 0.16;
   /// Points farther away than this take no part (m).
   double max_range_m = 60.0;
   /// Most points that a search counts, and that a refinement uses. Changes speed, and little else.
@@ -40,8 +39,6 @@ struct MatcherConfig {
     v("engine", engine, "search (certified) or particle_filter (the paper's; seconds a cloud)");
     v("resolution_m", resolution_m,
       "lattice of poses in a search of the whole map; refined after that", 0.02, 1.0);
-    v("window_resolution_m", window_resolution_m,
-      "lattice of poses while tracking; refined after that", 0.02, 1.0);
     v("max_range_m", max_range_m, "points farther away take no part in matching", 1.0, 500.0);
     v("search_points", search_points, "most points that a search counts: speed", 50, 1000);
     v("refine_points", refine_points, "most points that a refinement uses: speed", 50, 100000);
@@ -81,18 +78,22 @@ struct Match {
   double significance_log10 = 0.0;
 };
 
-/// Matches scans with one map, whatever the engine. Built anew after the map has changed.
+/// Matches scans with one map, whatever the engine.
 class Matcher {
  public:
   virtual ~Matcher() = default;
 
   /// The modes of the pose of a scan (in base) within the window, or in the whole map without one.
   virtual Match match(const Cloud& scan, const std::optional<PoseWindow>& window) = 0;
+
+  /// These blocks of the map have gained voxels or passed cells, and none have lost any. Matches
+  /// are the same as with a new matcher.
+  virtual void map_grew(const ChangedBlocks& grown) = 0;
 };
 
 /// Makes the map ready for matching, each part when it is first needed. The map must outlive the
-/// matcher and stay as it is; use the matcher from one thread. Throws std::invalid_argument on an
-/// unknown engine.
+/// matcher; when it changes but by growing, make another one. Use the matcher from one thread.
+/// Throws std::invalid_argument on an unknown engine.
 std::unique_ptr<Matcher> make_matcher(const OccupancyMap& map, const MatcherConfig& config);
 
 }  // namespace voxlist

@@ -4,7 +4,21 @@
 #include <cstdint>
 #include <vector>
 
+#include "voxels/voxel.h"
+
 namespace voxlist {
+
+/// A cell as one number, ascending by layer, row and column. Coordinates within +-2^20: 52 km at
+/// 0.05 m.
+inline std::uint64_t key_of(const Voxel& v) {
+  const auto part = [](std::int32_t value) {
+    return static_cast<std::uint64_t>(value + (1 << 20)) & 0x1fffff;
+  };
+  return part(v.z) << 42 | part(v.y) << 21 | part(v.x);
+}
+
+/// The layer of a key's cell: ascending, the same for cells of the same height.
+inline std::uint64_t layer_of(std::uint64_t key) { return key >> 42; }
 
 /// Numbers different keys 0, 1, 2, ... in the order in which they are met.
 class Numbering {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "geometry/pose.h"
-#include "matching/search.h"
+#include "matching/pose_window.h"
 #include "voxels/voxel_map.h"
 
 // The steps of the paper's particle filter (section III); particle_filter.h puts them together.

@@ -42,15 +42,8 @@ const Surfel* SurfelMap::find(const Eigen::Vector3d& point, const Eigen::Vector3
   return nearest;
 }
 
-void SurfelMap::update(const ChangedBlocks& changed) {
-  for (const Voxel& block : changed.occupied) {
-    const std::uint32_t index = directory_[slot_of(pack(cube_of(block)))];
-    if (index != 0) cubes_[index - 1].fitted = false;
-  }
-}
-
-Voxel SurfelMap::cube_of(const Voxel& block) const {
-  return {floor_div(block.x, blocks_), floor_div(block.y, blocks_), floor_div(block.z, blocks_)};
+void SurfelMap::map_changed() {
+  for (Cube& cube : cubes_) cube.fitted = false;
 }
 
 std::size_t SurfelMap::slot_of(std::uint64_t key) const {

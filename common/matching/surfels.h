@@ -52,9 +52,10 @@ class SurfelMap {
   /// have ended on, the nearest if there are two; nullptr when there is none. Stays where it is.
   const Surfel* find(const Eigen::Vector3d& point, const Eigen::Vector3d& origin) const;
 
-  /// The map has changed in these blocks: their cubes are fitted anew when next asked for. Surfels
+  /// The map has changed: cubes are fitted anew when next asked for. (All: a surfel depends on what
+  /// rays passed round its cube, and a scan's rays pass most of what the next scan sees.) Surfels
   /// that were found before must not be used any more.
-  void update(const ChangedBlocks& changed);
+  void map_changed();
 
  private:
   struct Cube {
@@ -64,7 +65,6 @@ class SurfelMap {
     Surfel sides[2];
   };
 
-  Voxel cube_of(const Voxel& block) const;
   std::size_t slot_of(std::uint64_t key) const;
   Cube& cube_at(const Voxel& position) const;
   void grow() const;

@@ -26,7 +26,12 @@ class WindowMap {
   /// Cells along the edge of what one load tells.
   static constexpr std::int32_t kTile = 8;
 
+  /// Takes in at least `ground`.
   WindowMap(const VoxelMap& map, const CellRectangle& ground);
+
+  /// Takes in what blocks of the map have gained; voxels that went stay. False: a block is higher
+  /// or lower than all that are held; then only another WindowMap helps.
+  bool add(const VoxelMap& map, const std::vector<Voxel>& blocks);
 
   static double cell_m(const VoxelMap& map) { return map.resolution_m() * kBlockEdge / 2; }
   static double layer_m(const VoxelMap& map) { return map.resolution_m() * kBlockEdge; }
@@ -48,16 +53,23 @@ class WindowMap {
     return bits;
   }
 
-  std::int64_t occupied_cells() const { return occupied_cells_; }
-  std::int64_t cells() const { return std::int64_t{size_x_} * size_y_ * size_z_; }
+  /// Cells over a rectangle, rounded to 32 of them, from the lowest occupied layer to the highest,
+  /// and the occupied ones among them. Depends on the map and the rectangle alone, which must lie
+  /// within ground().
+  struct Count {
+    std::int64_t cells = 0, occupied = 0;
+  };
+  Count count(const CellRectangle& rectangle) const;
 
  private:
+  bool on_ground(const Voxel& block) const;
   void mark(const Voxel& block, const VoxelBlock& bits);
+  std::size_t patch_of(std::int32_t x, std::int32_t y, std::int32_t z) const;
 
   CellRectangle ground_;
   std::int32_t low_x_, low_y_, size_x_, size_y_, lowest_z_ = 0, size_z_ = 0;
-  std::vector<std::uint8_t> columns_;  // bit k of a cell's byte is the cell k rows farther
-  std::int64_t occupied_cells_ = 0;
+  std::vector<std::uint8_t> columns_;   // bit k of a cell's byte is the cell k rows farther
+  std::vector<std::int32_t> occupied_;  // cells of each patch of the ground, by layer, y, x
 };
 
 }  // namespace voxlist

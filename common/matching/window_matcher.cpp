@@ -28,7 +28,8 @@ Match WindowMatcher::match(const Cloud& cloud, const PoseWindow& window) {
   config.mode_ratio = 0.9;
   config.mode_distance_m = 0.3;
   config.mode_turn_rad = 0.1;
-  const WindowMap& window_map = map_for(counted.radius_m, window);
+  const CellRectangle ground = needed_ground(cell_m_, counted.radius_m, window);
+  const WindowMap& window_map = map_for(ground);
   const SearchResult found = search_window(window_map, cell_m_, counted, window, config);
   Match match;
   match.certified = found.certified;
@@ -40,14 +41,17 @@ Match WindowMatcher::match(const Cloud& cloud, const PoseWindow& window) {
   match.modes = refined(surfels_, scan, match.modes);
   std::stable_sort(match.modes.begin(), match.modes.end(),
                    [](const auto& a, const auto& b) { return a.fit > b.fit; });
-  match.significance_log10 =
-      log10_significance(window_map.cells(), window_map.occupied_cells(), counted.points.size(),
-                         found.modes.front().overlap, found.lattice_poses);
+  const WindowMap::Count count = window_map.count(ground);
+  match.significance_log10 = log10_significance(count.cells, count.occupied, counted.points.size(),
+                                                found.modes.front().overlap, found.lattice_poses);
   return match;
 }
 
-const WindowMap& WindowMatcher::map_for(double radius_m, const PoseWindow& window) {
-  const CellRectangle needed = needed_ground(cell_m_, radius_m, window);
+void WindowMatcher::map_grew(const ChangedBlocks& grown) {
+  if (window_map_ && !window_map_->add(map_.occupied, grown.occupied)) window_map_.reset();
+}
+
+const WindowMap& WindowMatcher::map_for(const CellRectangle& needed) {
   if (!window_map_ || !window_map_->ground().holds(needed)) {
     // Somewhat more, so that it serves while the robot moves on.
     constexpr std::int32_t kMore = 32;

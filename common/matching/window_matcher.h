@@ -17,8 +17,11 @@ class WindowMatcher {
 
   Match match(const Cloud& scan, const PoseWindow& window);
 
+  /// These blocks of the map have gained voxels.
+  void map_grew(const ChangedBlocks& grown);
+
  private:
-  const WindowMap& map_for(double radius_m, const PoseWindow& window);
+  const WindowMap& map_for(const CellRectangle& needed);
 
   const OccupancyMap& map_;
   const SurfelMap& surfels_;

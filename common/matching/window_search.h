@@ -1,7 +1,8 @@
 #pragma once
 
 #include "matching/match_points.h"
-#include "matching/search.h"
+#include "matching/pose_window.h"
+#include "matching/search_result.h"
 #include "matching/window_map.h"
 
 namespace voxlist {

@@ -71,7 +71,11 @@ void LocaliserService::take_odometry(const pose_t& message) {
 void LocaliserService::take_map(const map_update_t& message) {
   const auto before = assembler_.held();
   for (const MapChange& change : assembler_.add(message)) {
-    if (apply(change, map_)) localiser_.map_changed();
+    const AppliedChange applied = apply(change, map_);
+    if (applied.replaced)
+      localiser_.map_changed();
+    else
+      localiser_.map_grew(applied.grown);
   }
   const auto& held = assembler_.held();
   if (held && before && held->map_id != before->map_id) {

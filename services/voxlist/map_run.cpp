@@ -15,7 +15,7 @@ void MapRun::localise(Scan scan) {
   trajectory_.push_back({scan.cloud.utime_us, T_map_base});
   if (!builder_.wants(pose)) return;
   builder_.add({T_map_base, std::move(scan.cloud)});
-  localiser_.map_changed();
+  localiser_.map_grew(builder_.changed_blocks());
 }
 
 void MapRun::place(Scan scan, const Pose3& T_map_base) {

@@ -91,7 +91,7 @@ std::vector<Figure> run(const BuildingConfig& config, double length_m) {
     start_ms = cpu_ms();
     if (map.wants(pose)) {
       map.add({to_pose3(pose), scan});
-      localiser.map_changed();
+      localiser.map_grew(map.changed_blocks());
     }
     map_ms.push_back(cpu_ms() - start_ms);
   }

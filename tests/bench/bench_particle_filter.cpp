@@ -6,7 +6,7 @@
 #include "bench/report.h"
 #include "bench/scene.h"
 #include "matching/particle_filter.h"
-#include "matching/search.h"
+#include "matching/pose_window.h"
 
 namespace voxlist {
 namespace {
@@ -65,7 +65,7 @@ class Levels {
 
 // The whole map, as when the robot is lost, and the surroundings of a last pose, as when it tracks.
 Levels& global() {
-  static Levels made(whole_map(SearchMap(scene().map)));
+  static Levels made(whole_map(scene().map));
   return made;
 }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 namespace voxlist {
@@ -44,7 +45,7 @@ TEST(MapConvert, AWholeMapReplacesWhateverWas) {
   OccupancyMap received{VoxelMap(0.5), VoxelMap(0.7)};
   received.occupied.insert({1, 2, 3});
   received.passed.insert({4, 5, 6});
-  EXPECT_TRUE(apply(whole_change(sent), received));
+  EXPECT_TRUE(apply(whole_change(sent), received).replaced);
   expect_equal(received, sent);
 }
 
@@ -52,25 +53,48 @@ TEST(MapConvert, AnIncrementCarriesTheBlocksThatChanged) {
   OccupancyMap sent = random_map(), received = random_map();
   sent.occupied.insert({1000, -1000, 7});
   sent.passed.insert({-1000, 1000, 7});
-  const Voxel nowhere{9999, 9999, 9999};
-  const MapBlocks blocks = to_messages(
-      sent, {{block_of({1000, -1000, 7}), nowhere}, {block_of({-1000, 1000, 7}), nowhere}});
+  const Voxel a = block_of({1000, -1000, 7}), b = block_of({-1000, 1000, 7}),
+              nowhere{9999, 9999, 9999};
+  const MapBlocks blocks = to_messages(sent, {{a, nowhere}, {b, nowhere}});
   EXPECT_EQ(blocks.occupied.size(), 1u);
   EXPECT_EQ(blocks.passed.size(), 1u);
   const MapChange increment = change_to(sent, 0, blocks);
-  EXPECT_TRUE(apply(increment, received));
+  const AppliedChange applied = apply(increment, received);
+  EXPECT_FALSE(applied.replaced);
+  EXPECT_EQ(applied.grown.occupied, std::vector{a});
+  EXPECT_EQ(applied.grown.passed, std::vector{b});
   expect_equal(received, sent);
-  EXPECT_FALSE(apply(increment, received));
+  const AppliedChange again = apply(increment, received);
+  EXPECT_FALSE(again.replaced);
+  EXPECT_TRUE(again.grown.occupied.empty());
+  EXPECT_TRUE(again.grown.passed.empty());
+}
+
+TEST(MapConvert, TellsWhenSomethingWent) {
+  const OccupancyMap full = random_map();
+  for (const bool passed : {false, true}) {
+    OccupancyMap sent = full, received = full;
+    VoxelMap& map = passed ? sent.passed : sent.occupied;
+    const Voxel block = map.block_position(7);
+    VoxelBlock less = map.block(7);
+    auto& word = *std::find_if(less.begin(), less.end(), [](auto w) { return w != 0; });
+    word &= word - 1;
+    map.set_block(block, less);
+    const MapBlocks blocks = to_messages(sent, {{block}, {block}});
+    EXPECT_TRUE(apply(change_to(sent, 0, blocks), received).replaced);
+    expect_equal(received, sent);
+  }
 }
 
 TEST(MapConvert, TellsThatPassedCellsAloneChanged) {
   OccupancyMap sent, received;
   sent.passed.insert({1, 2, 3});
-  EXPECT_TRUE(apply(change_to(sent, 0, to_messages(sent)), received));
+  const AppliedChange applied = apply(change_to(sent, 0, to_messages(sent)), received);
+  EXPECT_FALSE(applied.replaced);
+  EXPECT_EQ(applied.grown.passed, std::vector{block_of({1, 2, 3})});
   EXPECT_TRUE(received.passed.contains({1, 2, 3}));
-  const OccupancyMap nothing;
-  EXPECT_TRUE(apply(whole_change(nothing), received)) << "they are gone now";
-  EXPECT_FALSE(apply(whole_change(nothing), received));
+  EXPECT_TRUE(apply(whole_change({}), received).replaced) << "they are gone now";
+  EXPECT_TRUE(received.passed.empty());
 }
 
 }  // namespace

@@ -113,13 +113,13 @@ TEST(SurfelMap, HidesAWallFromRaysThatWouldHaveToComeThroughIt) {
   EXPECT_EQ(surfels.find({1.01, 1.0, 1.0}, {2.0, 1.0, 1.0}), nullptr);
 }
 
-TEST(SurfelMap, KnowsWhatAnUpdateBrought) {
+TEST(SurfelMap, KnowsWhatAChangeBrought) {
   OccupancyMap map;
   SurfelMap surfels(map);
   const Eigen::Vector3d point(1.01, 1.0, 1.0), origin(0.0, 1.0, 1.0);
   EXPECT_EQ(surfels.find(point, origin), nullptr);
   add_wall(1.01, map);
-  surfels.update({.occupied = {block_of(voxel_at(point, 0.02))}, .passed = {}});
+  surfels.map_changed();
   EXPECT_NE(surfels.find(point, origin), nullptr);
 }
 
