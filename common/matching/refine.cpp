@@ -1,11 +1,10 @@
-#include "matching/refine.h"
-
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <cstdint>
 
 #include "matching/numbering.h"
+#include "matching/refine.h"
 
 namespace voxlist {
 namespace {
@@ -199,8 +198,10 @@ Pose3 refine_pose(const SurfelMap& surfels, const RayPoints& scan, const Pose3& 
   }
   result.covariance = covariance_of(held, config);
   // Normals that are off by chance drag the pose along what nothing holds, each point a little: as
-  // far as the start knows better, the way is taken back.
-  const Step<kDof> back = -result.covariance * start_information.cwiseProduct(moved);
+  // far as the start knows better, the way is taken back. Turns stay: any wall holds them, and far
+  // better than a lattice does.
+  Step<kDof> back = -result.covariance * start_information.cwiseProduct(moved);
+  back.template tail<kTurn>().setZero();
   move(back, pose);
   tell_fit(held, scan.points.size(), config.scale_m, result);
   return pose;

@@ -14,8 +14,8 @@ struct RefineConfig {
   int max_iterations = 12;
   /// Stops when a step is smaller than this (m at the points' typical range).
   double converged_m = 2e-4;
-  /// Standard deviation of the start (m, rad). Directions that the surfaces hold no better stay as
-  /// they were.
+  /// Standard deviation of the start (m, rad). Where the surfaces hold its shifts no better, they
+  /// stay as they were.
   double start_sigma_m = 0.15;
   double start_sigma_rad = 0.02;
   /// Points scatter at least this much about a surface (m): below it, the lattice hides how much.
