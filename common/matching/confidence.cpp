@@ -7,8 +7,10 @@ namespace voxlist {
 namespace {
 
 // Fitted by tests/bench/fit_confidence.py on single scans of five kinds of buildings.
-constexpr double kPlaceSlope = 176.0;
-constexpr double kFoundBias = -18.9, kFoundSupport = 21.2, kFoundMargin = 19.4;
+// Places are compared by (what is left unexplained + kSlack) ^ -kPlacePower: where one place
+// explains nearly all, a hundredth less counts more than where all leave much to explain.
+constexpr double kPlacePower = 18.0, kSlack = 0.02;
+constexpr double kFoundBias = -23.3, kFoundSupport = 25.7, kFoundMargin = 21.8;
 // A rival that is farther behind than this says no more than none.
 constexpr double kFarBehind = 0.2;
 
@@ -20,10 +22,10 @@ Odds& Odds::operator+=(const Odds& other) {
   return *this;
 }
 
-Odds odds_of(double support, double rival, double weight) {
+Odds odds_of(double support, double rival, const ScanWeight& weight) {
   const double margin = std::min(support - rival, kFarBehind);
-  return {weight * kPlaceSlope * support,
-          weight * (kFoundBias + kFoundSupport * support + kFoundMargin * margin)};
+  return {-weight.place * kPlacePower * std::log(1.0 - support + kSlack),
+          weight.found * (kFoundBias + kFoundSupport * support + kFoundMargin * margin)};
 }
 
 std::vector<double> probabilities(std::span<const Odds> places) {

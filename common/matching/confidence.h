@@ -15,10 +15,14 @@ struct Odds {
   Odds& operator+=(const Odds& other);
 };
 
+/// How much a scan counts: 1 beside nothing else, less where others saw nearly the same.
+struct ScanWeight {
+  double place = 1.0, found = 1.0;
+};
+
 /// What one scan says for a place of this support (see match_modes.h), where the best other place
-/// of the map has `rival`: a map in which wrong places fit nearly as well proves little. `weight`:
-/// 1 for a scan that nothing is known beside, less for one that saw nearly the same as another did.
-Odds odds_of(double support, double rival, double weight);
+/// of the map has `rival`: a map in which wrong places fit nearly as well proves little.
+Odds odds_of(double support, double rival, const ScanWeight& weight);
 
 /// Probability of each place that it is the right one; what is missing to 1 is for none of them.
 /// Coefficients were fitted by tests/bench/fit_confidence.py.

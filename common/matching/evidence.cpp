@@ -9,8 +9,6 @@
 namespace voxlist {
 namespace {
 
-// A ray's end is on a voxel of the map when one is this near on each axis, in voxels.
-constexpr std::int32_t kReach = 2;
 // What rays are not asked about (m): the robot itself, and the surroundings of what was hit.
 constexpr double kStart_m = 0.3, kEnd_m = 0.4;
 // Longer rays are followed this far (m).
@@ -75,9 +73,9 @@ std::uint64_t square(std::int32_t low_x, std::int32_t high_x, std::int32_t low_y
 }
 
 // Whether a voxel of the block is within reach of one that is given relative to its lowest.
-bool touches(const VoxelBlock& block, const Voxel& v) {
-  const std::uint64_t near = square(v.x - kReach, v.x + kReach, v.y - kReach, v.y + kReach);
-  for (std::int32_t z = std::max(0, v.z - kReach); z <= std::min(kBlockEdge - 1, v.z + kReach); ++z)
+bool touches(const VoxelBlock& block, const Voxel& v, std::int32_t reach) {
+  const std::uint64_t near = square(v.x - reach, v.x + reach, v.y - reach, v.y + reach);
+  for (std::int32_t z = std::max(0, v.z - reach); z <= std::min(kBlockEdge - 1, v.z + reach); ++z)
     if (block[static_cast<std::size_t>(z)] & near) return true;
   return false;
 }
@@ -132,8 +130,10 @@ std::vector<EvidenceRay> choose_evidence_rays(const Cloud& scan, std::size_t mos
   return rays;
 }
 
-EvidenceMap::EvidenceMap(const OccupancyMap& map)
-    : map_(map), filled_(filled_cells(map.occupied, shift_)) {}
+EvidenceMap::EvidenceMap(const OccupancyMap& map, double reach_m)
+    : map_(map),
+      reach_(static_cast<std::int32_t>(std::lround(reach_m / map.occupied.resolution_m()))),
+      filled_(filled_cells(map.occupied, shift_)) {}
 
 void EvidenceMap::map_grew(const ChangedBlocks& grown) {
   for (const Voxel& block : grown.occupied) {
@@ -176,14 +176,16 @@ Evidence EvidenceMap::at(const Pose2& pose, const std::vector<EvidenceRay>& rays
 
 bool EvidenceMap::hit(const Eigen::Vector3d& end) const {
   const Voxel v = voxel_at(end, map_.occupied.resolution_m());
-  const Voxel first = block_of({v.x - kReach, v.y - kReach, v.z - kReach}),
-              last = block_of({v.x + kReach, v.y + kReach, v.z + kReach});
+  const Voxel first = block_of({v.x - reach_, v.y - reach_, v.z - reach_}),
+              last = block_of({v.x + reach_, v.y + reach_, v.z + reach_});
   for (Voxel b = first; b.z <= last.z; ++b.z)
     for (b.y = first.y; b.y <= last.y; ++b.y)
       for (b.x = first.x; b.x <= last.x; ++b.x) {
         const VoxelBlock* block = map_.occupied.find_block(b);
-        if (block && touches(*block, {v.x - kBlockEdge * b.x, v.y - kBlockEdge * b.y,
-                                      v.z - kBlockEdge * b.z}))
+        if (block &&
+            touches(*block,
+                    {v.x - kBlockEdge * b.x, v.y - kBlockEdge * b.y, v.z - kBlockEdge * b.z},
+                    reach_))
           return true;
       }
   return false;

@@ -42,7 +42,9 @@ std::vector<EvidenceRay> choose_evidence_rays(const Cloud& scan, std::size_t mos
 /// make another one. Reading from several threads is safe.
 class EvidenceMap {
  public:
-  explicit EvidenceMap(const OccupancyMap& map);
+  /// A ray's end is on the map when a voxel is within about `reach_m` on each axis. More forgives
+  /// inexact poses and sparse maps, and still tells what is gone or new.
+  explicit EvidenceMap(const OccupancyMap& map, double reach_m = 0.04);
 
   /// These blocks of the map have gained something.
   void map_grew(const ChangedBlocks& grown);
@@ -57,6 +59,7 @@ class EvidenceMap {
   bool violated(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const;
 
   const OccupancyMap& map_;
+  std::int32_t reach_;
   int shift_ = 0;
   /// Where the map has any blocks, 2^shift_ blocks a cell along each axis.
   BitGrid filled_;

@@ -11,10 +11,12 @@ constexpr double kSamePlace_m = 0.4, kSamePlace_rad = 0.15;
 // Most places that are followed.
 constexpr std::size_t kMostPlaces = 40;
 // Less probable than the best by this factor's logarithm: given up.
-constexpr double kHopeless = 40.0;
+constexpr double kHopeless = 30.0;
 // A scan after the first counts this much once the robot has moved that far (m), and in proportion
-// before: neighbouring scans see the same things, and err together.
-constexpr double kNextWeight = 0.5, kNextDistance_m = 0.5;
+// before: neighbouring scans see the same things, and err together. Most of all they do so in a
+// building that the map is not of.
+constexpr ScanWeight kNext{0.5, 0.25};
+constexpr double kNextDistance_m = 0.5;
 
 bool same_place(const Pose2& a, const Pose2& b) {
   return distance_m(a, b) < kSamePlace_m && turn_rad(a, b) < kSamePlace_rad;
@@ -51,7 +53,9 @@ Odds Hypotheses::past(const Pose2& pose) const {
 }
 
 void Hypotheses::weigh(const std::vector<PoseMode>& candidates) {
-  const double weight = empty() ? 1.0 : kNextWeight * std::min(1.0, moved_m_ / kNextDistance_m);
+  const double share = std::min(1.0, moved_m_ / kNextDistance_m);
+  const ScanWeight weight =
+      empty() ? ScanWeight{} : ScanWeight{share * kNext.place, share * kNext.found};
   moved_m_ = 0.0;
   std::vector<Place> now;
   double worst = 1.0, best = 0.0;

@@ -1,9 +1,11 @@
 #include "matching/localiser.h"
 
+#include <algorithm>
 #include <numbers>
 
 #include "matching/evidence.h"
 #include "matching/lost_search.h"
+#include "matching/match_modes.h"
 #include "matching/pose_track.h"
 
 namespace voxlist {
@@ -12,8 +14,15 @@ namespace {
 // Of a pose that goes on explaining what the robot sees, after a past that was sure.
 constexpr double kTracked = 0.99;
 
+// Poses are weighed by what is plainly there or not: maps are sparse in places, and so alike rooms
+// would differ by chance.
+constexpr double kReach_m = 0.08;
+
 // Rays that weigh a tracked pose.
 constexpr std::size_t kRays = 600;
+
+// A pose that far away, and so much better supported, makes a doubtful one lost.
+constexpr double kElsewhere_m = 0.5, kBetter = 0.03;
 
 }  // namespace
 
@@ -63,7 +72,7 @@ Matcher& Localiser::matcher() {
 }
 
 const EvidenceMap& Localiser::evidence() {
-  if (!evidence_) evidence_ = std::make_unique<EvidenceMap>(map_);
+  if (!evidence_) evidence_ = std::make_unique<EvidenceMap>(map_, kReach_m);
   return *evidence_;
 }
 
@@ -73,14 +82,17 @@ Localisation Localiser::localise(const Cloud& cloud, const std::optional<Pose2>&
     track_.reset();
   }
   Localisation result;
+  std::optional<double> support;
   if (map_.empty()) {
     result = origin(cloud);
   } else {
     if (!search_) search_ = std::make_unique<LostSearch>(config_.matcher, limits());
     result = search_->add(cloud, T_odom_base, matcher(), evidence());
+    if (result.tracking()) support = result.modes.front().support;
   }
   if (result.tracking()) {
-    track_ = std::make_unique<PoseTrack>(cloud, T_odom_base, result.modes.front().T_map_base);
+    track_ =
+        std::make_unique<PoseTrack>(cloud, T_odom_base, result.modes.front().T_map_base, support);
     search_.reset();
   }
   return result;
@@ -106,13 +118,27 @@ std::optional<Localisation> Localiser::track(const Cloud& cloud,
   const Match match = track_->match(matcher(), cloud, T_odom_base, limits());
   if (match.modes.empty()) return std::nullopt;
   const MatchMode& mode = match.modes.front();
-  const Evidence seen = evidence().at(mode.pose, choose_evidence_rays(cloud, kRays));
-  if (!track_->explains(mode, seen)) return std::nullopt;
+  const auto rays = choose_evidence_rays(cloud, kRays);
+  const Evidence seen = evidence().at(mode.pose, rays);
+  const auto verdict = track_->judge(mode, seen);
+  if (verdict == PoseTrack::Verdict::kLost) return std::nullopt;
+  if (verdict == PoseTrack::Verdict::kDoubtful && fits_better_elsewhere(cloud, rays, mode.pose))
+    return std::nullopt;
   track_->advance(cloud, T_odom_base, mode, seen);
   Localisation result = from_match(cloud, match);
   result.state = LocalisationState::kTracking;
   result.confidence = result.modes.front().probability = kTracked;
   return result;
+}
+
+bool Localiser::fits_better_elsewhere(const Cloud& cloud, const std::vector<EvidenceRay>& rays,
+                                      const Pose2& pose) {
+  const double here = support(evidence().at(pose, rays));
+  const Match match = matcher().match(cloud, std::nullopt);
+  return std::any_of(match.modes.begin(), match.modes.end(), [&](const MatchMode& mode) {
+    return distance_m(mode.pose, pose) > kElsewhere_m &&
+           support(evidence().at(mode.pose, rays)) > here + kBetter;
+  });
 }
 
 }  // namespace voxlist

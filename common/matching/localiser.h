@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "geometry/cloud.h"
 #include "matching/localisation.h"
@@ -11,6 +12,7 @@
 namespace voxlist {
 
 class EvidenceMap;
+struct EvidenceRay;
 class LostSearch;
 class PoseTrack;
 struct MotionLimits;
@@ -66,6 +68,9 @@ class Localiser {
   static Localisation origin(const Cloud& cloud);
   // Nothing when the track is lost.
   std::optional<Localisation> track(const Cloud& cloud, const std::optional<Pose2>& T_odom_base);
+
+  bool fits_better_elsewhere(const Cloud& cloud, const std::vector<EvidenceRay>& rays,
+                             const Pose2& pose);
 
   const OccupancyMap& map_;
   const LocaliserConfig config_;

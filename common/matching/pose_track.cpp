@@ -12,10 +12,10 @@ namespace {
 constexpr double kLeastOverlap = 0.15, kLeastFitShare = 0.4;
 // The window grows to all that motion allows when the fit falls below this share of the last one.
 constexpr double kDoubtfulFitShare = 0.8;
-// Lost when the support falls this far below its running mean.
-constexpr double kScoreDrop = 0.25;
-constexpr double kScoreMemory = 0.7;
-// Scores mean something where the map knows this share of the rays' ends.
+// Support that falls so far below its running mean makes a pose doubtful, or lost.
+constexpr double kDoubtfulDrop = 0.08, kLostDrop = 0.35;
+constexpr double kSupportMemory = 0.7;
+// Support means something where the map knows this share of the rays' ends.
 constexpr double kKnownShare = 0.3;
 
 // How far a prediction may be off, beside a share of the motion itself.
@@ -41,8 +41,9 @@ bool map_knows(const Evidence& e) { return e.hits + e.misses >= kKnownShare * e.
 
 }  // namespace
 
-PoseTrack::PoseTrack(const Cloud& cloud, const std::optional<Pose2>& T_odom_base, const Pose2& pose)
-    : utime_us_(cloud.utime_us), pose_(pose), T_odom_base_(T_odom_base) {}
+PoseTrack::PoseTrack(const Cloud& cloud, const std::optional<Pose2>& T_odom_base, const Pose2& pose,
+                     const std::optional<double>& support)
+    : utime_us_(cloud.utime_us), pose_(pose), T_odom_base_(T_odom_base), support_(support) {}
 
 Pose2 PoseTrack::predict(std::int64_t now_us, const std::optional<Pose2>& T_odom_now) const {
   if (T_odom_base_ && T_odom_now) return pose_ * (T_odom_base_->inverse() * *T_odom_now);
@@ -79,9 +80,12 @@ Match PoseTrack::match(Matcher& matcher, const Cloud& cloud,
   return match;
 }
 
-bool PoseTrack::explains(const MatchMode& mode, const Evidence& evidence) const {
-  if (mode.overlap < kLeastOverlap || mode.fit < kLeastFitShare * fit_) return false;
-  return !score_ || !map_knows(evidence) || support(evidence) >= *score_ - kScoreDrop;
+PoseTrack::Verdict PoseTrack::judge(const MatchMode& mode, const Evidence& evidence) const {
+  if (mode.overlap < kLeastOverlap || mode.fit < kLeastFitShare * fit_) return Verdict::kLost;
+  if (!support_ || !map_knows(evidence)) return Verdict::kExplains;
+  const double drop = *support_ - support(evidence);
+  if (drop > kLostDrop) return Verdict::kLost;
+  return drop > kDoubtfulDrop ? Verdict::kDoubtful : Verdict::kExplains;
 }
 
 void PoseTrack::advance(const Cloud& cloud, const std::optional<Pose2>& T_odom_base,
@@ -93,8 +97,8 @@ void PoseTrack::advance(const Cloud& cloud, const std::optional<Pose2>& T_odom_b
   T_odom_base_ = T_odom_base;
   fit_ = mode.fit;
   if (!map_knows(evidence)) return;
-  const double score = support(evidence);
-  score_ = score_ ? kScoreMemory * *score_ + (1.0 - kScoreMemory) * score : score;
+  const double now = support(evidence);
+  support_ = support_ ? kSupportMemory * *support_ + (1.0 - kSupportMemory) * now : now;
 }
 
 }  // namespace voxlist

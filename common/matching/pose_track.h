@@ -13,7 +13,9 @@ namespace voxlist {
 /// What tracking goes on from: the last pose, the motion since, and how well scans agreed lately.
 class PoseTrack {
  public:
-  PoseTrack(const Cloud& cloud, const std::optional<Pose2>& T_odom_base, const Pose2& pose);
+  /// Begins at a pose, with what supported it; nothing where there was no map yet.
+  PoseTrack(const Cloud& cloud, const std::optional<Pose2>& T_odom_base, const Pose2& pose,
+            const std::optional<double>& support);
 
   /// Where the robot should be: by odometry, else by the last step.
   Pose2 predict(std::int64_t now_us, const std::optional<Pose2>& T_odom_now) const;
@@ -24,9 +26,10 @@ class PoseTrack {
   Match match(Matcher& matcher, const Cloud& cloud, const std::optional<Pose2>& T_odom_base,
               const MotionLimits& limits) const;
 
-  /// Whether a pose explains its scan about as well as those before did. What the map does not know
-  /// is no objection.
-  bool explains(const MatchMode& mode, const Evidence& evidence) const;
+  /// How well a pose explains its scan, beside the scans before. What the map does not know is no
+  /// objection.
+  enum class Verdict { kExplains, kDoubtful, kLost };
+  Verdict judge(const MatchMode& mode, const Evidence& evidence) const;
 
   /// Goes on from a pose.
   void advance(const Cloud& cloud, const std::optional<Pose2>& T_odom_base, const MatchMode& mode,
@@ -42,7 +45,7 @@ class PoseTrack {
   // Of the last cloud; 0: there was nothing to compare with yet.
   double fit_ = 0.0;
   // Of the last clouds, a running mean; nothing before one was seen where the map knows much.
-  std::optional<double> score_;
+  std::optional<double> support_;
 };
 
 }  // namespace voxlist

@@ -4,9 +4,10 @@
 Usage: bench_confidence 40 0 1 5 scans.csv; fit_confidence.py scans.csv...
 
 Two logistic models by maximum likelihood, each damped a little towards 0:
-- which of the listed places is right, where one is: softmax of kPlaceSlope * score;
+- which of the listed places is right, where one is: in proportion to
+  (1 - support + kSlack) ^ -kPlacePower;
 - whether the best place is right at all, rather than none that is listed:
-  kFoundBias + kFoundSupport * score + kFoundMargin * margin, margin = how far the best other place is
+  kFoundBias + kFoundSupport * support + kFoundMargin * margin, margin = how far the best other place is
   behind, at most kFarBehind.
 Scans are split by seed to show how the fit carries over to buildings that it has not seen.
 """
@@ -16,17 +17,18 @@ import sys
 from collections import defaultdict
 
 FAR_BEHIND = 0.2
+SLACK = 0.02
 DAMPING = 1e-4
 
 
 def read(files):
-    """(kind, seed, query) -> [(score, right)], best score first."""
+    """(kind, seed, query) -> [(support, right)], best first."""
     scans = defaultdict(list)
     for name in files:
         with open(name) as file:
             for row in csv.DictReader(file):
                 key = row["kind"], int(row["seed"]), int(row["query"])
-                scans[key].append((float(row["score"]), row["right"] == "1"))
+                scans[key].append((float(row["support"]), row["right"] == "1"))
     return {key: sorted(modes, reverse=True) for key, modes in scans.items()}
 
 
@@ -39,8 +41,9 @@ def features(modes):
     return [1.0, modes[0][0], min(modes[0][0] - rival, FAR_BEHIND)]
 
 
-def shares(modes, slope):
-    weights = [math.exp(slope * (score - modes[0][0])) for score, _ in modes]
+def shares(modes, power):
+    least = 1.0 - modes[0][0] + SLACK
+    weights = [((1.0 - score + SLACK) / least) ** -power for score, _ in modes]
     return [w / sum(weights) for w in weights]
 
 
@@ -78,15 +81,15 @@ def fit_found(scans):
     return w
 
 
-def fit_slope(scans):
-    """The slope of most likelihood, by golden section."""
+def fit_power(scans):
+    """The power of most likelihood, by golden section."""
     listed = [modes for modes in scans.values() if any(r for _, r in modes)]
 
-    def loss(slope):
+    def loss(power):
         return sum(-math.log(max(1e-300, p)) for modes in listed
-                   for p, (_, r) in zip(shares(modes, slope), modes) if r)
+                   for p, (_, r) in zip(shares(modes, power), modes) if r)
 
-    low, high = 1.0, 1000.0
+    low, high = 1.0, 100.0
     for _ in range(60):
         a, b = low + 0.382 * (high - low), low + 0.618 * (high - low)
         if loss(a) < loss(b):
@@ -96,11 +99,11 @@ def fit_slope(scans):
     return (low + high) / 2.0
 
 
-def report(scans, slope, w, limit=0.99):
+def report(scans, power, w, limit=0.99):
     kinds = defaultdict(lambda: [0, 0, 0, 0.0])
     for (kind, _, _), modes in scans.items():
         found = sigmoid(sum(a * b for a, b in zip(w, features(modes))))
-        p = found * shares(modes, slope)[0]
+        p = found * shares(modes, power)[0]
         entry = kinds[kind]
         entry[0] += 1
         if modes[0][1]:
@@ -117,10 +120,10 @@ def main():
     scans = read(sys.argv[1:])
 
     def run(name, train, test):
-        slope, w = fit_slope(train), fit_found(train)
-        print(f"{name}: kPlaceSlope {slope:.0f}, kFoundBias {w[0]:.1f}, kFoundSupport {w[1]:.1f}, "
+        power, w = fit_power(train), fit_found(train)
+        print(f"{name}: kPlacePower {power:.1f}, kFoundBias {w[0]:.1f}, kFoundSupport {w[1]:.1f}, "
               f"kFoundMargin {w[2]:.1f}")
-        report(test, slope, w)
+        report(test, power, w)
 
     even = {k: v for k, v in scans.items() if k[1] % 2 == 0}
     odd = {k: v for k, v in scans.items() if k[1] % 2 == 1}
