@@ -70,8 +70,6 @@ void weigh(const EvidenceMap& map, const std::vector<EvidenceRay>& rays, Match& 
   if (match.modes.empty()) return;
   match.margin = match.modes.front().support -
                  (match.modes.size() > 1 ? std::max(0.0, match.modes[1].support) : 0.0);
-  constexpr double kSure = 0.1;
-  match.rivalry = 2.0 - match.margin / kSure;
 }
 
 MatchPoints chosen_points(std::span<const Eigen::Vector3f> points, const MatcherConfig& config,

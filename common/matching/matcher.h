@@ -30,9 +30,9 @@ struct MatcherConfig {
   /// Most points that a search counts, and that a refinement uses. Changes speed, and little else.
   int search_points = 500;
   int refine_points = 4000;
-  /// Most nodes that a search opens before it gives up the certificate. Changes speed: 10 to 40 us
+  /// Most nodes that a search opens before it gives up the certificate. Changes speed: 2 to 10 us
   /// each.
-  int max_nodes = 50'000;
+  int max_nodes = 100'000;
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -67,8 +67,6 @@ struct Match {
   std::vector<MatchMode> modes;
   /// How much more support the first mode has than the second, or than none.
   double margin = 0.0;
-  /// The same as a limit: 1 and above, nobody can tell which is right.
-  double rivalry = 0.0;
   /// No pose of the lattice overlaps more than the best found.
   bool certified = false;
   /// No mode of nearly as much overlap was left out for want of time.
