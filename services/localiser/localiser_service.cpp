@@ -29,6 +29,7 @@ localisation_t to_message(const Localisation& result) {
     out.pose[2] = mode.T_map_base.yaw_rad;
     for (int i = 0; i < 9; ++i) out.covariance[i] = mode.covariance(i / 3, i % 3);
     out.overlap = mode.overlap;
+    out.probability = mode.probability;
     message.modes.push_back(out);
   }
   message.n_modes = static_cast<std::int32_t>(message.modes.size());

@@ -69,7 +69,7 @@ class Filler {
   }
 
   void fill(counter_t& m) { fill_all(m.name, m.count); }
-  void fill(pose_mode_t& m) { fill_all(m.pose, m.covariance, m.overlap); }
+  void fill(pose_mode_t& m) { fill_all(m.pose, m.covariance, m.overlap, m.probability); }
   void fill(voxel_block_t& m) { fill_all(m.x, m.y, m.z, m.bits); }
   void fill(map_request_t& m) { fill_all(m.utime, m.want, m.first); }
   void fill(pose_t& m) { fill_all(m.utime, m.pos, m.vel, m.orientation, m.rotation_rate, m.accel); }
