@@ -127,6 +127,45 @@ TEST(Localiser, SearchesTheWholeMapAfterItHasForgotten) {
   EXPECT_TRUE(localiser.localise(run.clouds[i]).global);
 }
 
+TEST(Localiser, NoticesThatItWasCarriedElsewhere) {
+  const Drive run = drive(6, 60.0);
+  const OccupancyMap map = map_at_truth(run);
+  int carried = 0;
+  for (std::size_t from = 0; from + 3 < run.clouds.size(); from += 10) {
+    for (std::size_t to = 0; to < run.clouds.size(); to += 20) {
+      if (distance_m(run.truth[from + 3], run.truth[to]) < 3.0) continue;
+      Localiser localiser(map);
+      Localisation result;
+      for (std::size_t i = from; i < from + 3; ++i)
+        result = localiser.localise(run.clouds[i], run.odometry[i]);
+      if (!result.tracking()) continue;
+      ++carried;
+      // The wheels have felt nothing.
+      result = localiser.localise(run.clouds[to], run.odometry[from + 2]);
+      if (result.tracking()) {
+        EXPECT_LT(distance_m(result.modes.front().T_map_base, run.truth[to]), 0.1)
+            << "from scan " << from << " to scan " << to;
+      }
+    }
+  }
+  EXPECT_GE(carried, 5);
+}
+
+TEST(Localiser, GivesEachModeItsProbability) {
+  const Drive run = drive(2, 30.0);
+  const OccupancyMap map = map_at_truth(run);
+  Localiser localiser(map);
+  const auto result = localiser.locate(run.clouds[10]);
+  double sum = 0.0, last = 1.0;
+  for (const PoseMode& mode : result.modes) {
+    EXPECT_LE(mode.probability, last);
+    sum += last = mode.probability;
+  }
+  ASSERT_FALSE(result.modes.empty());
+  EXPECT_EQ(result.confidence, result.modes.front().probability);
+  EXPECT_LT(sum, 1.0);
+}
+
 TEST(Localiser, GivesTheSameBitsForAnyNumberOfThreads) {
   const Drive run = drive(5, 12.0);
   const OccupancyMap map = map_at_truth(run);
