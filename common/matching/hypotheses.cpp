@@ -22,7 +22,7 @@ bool same_place(const Pose2& a, const Pose2& b) {
   return distance_m(a, b) < kSamePlace_m && turn_rad(a, b) < kSamePlace_rad;
 }
 
-// The best score of another place.
+// The best support of another place.
 double rival_of(const PoseMode& candidate, const std::vector<PoseMode>& all) {
   double best = 0.0;
   for (const PoseMode& other : all)
@@ -53,6 +53,7 @@ Odds Hypotheses::past(const Pose2& pose) const {
 }
 
 void Hypotheses::weigh(const std::vector<PoseMode>& candidates) {
+  if (empty()) clear();
   const double share = std::min(1.0, moved_m_ / kNextDistance_m);
   const ScanWeight weight =
       empty() ? ScanWeight{} : ScanWeight{share * kNext.place, share * kNext.found};

@@ -21,7 +21,7 @@ class Hypotheses {
   /// Where the places are now; covariances are the last scan's.
   std::vector<PoseMode> places() const;
 
-  /// Takes what a scan says (the score) of each candidate: places of before, found again about
+  /// Takes what a scan says (the support) of each candidate: places of before, found again about
   /// where they had moved to, and new ones. Places that no candidate is near are given up.
   void weigh(const std::vector<PoseMode>& candidates);
 

@@ -57,19 +57,21 @@ Localisation from_match(const Cloud& cloud, const Match& match) {
 
 Localisation LostSearch::add(const Cloud& cloud, const std::optional<Pose2>& T_odom_base,
                              Matcher& matcher, const EvidenceMap& evidence) {
+  Localisation result = from_match(cloud, matcher.match(cloud, std::nullopt));
+  result.global = true;
+  const auto rays = choose_evidence_rays(cloud, kRays, kSpacing_m);
+  // Nearly blind: the places wait for a better scan.
+  if (rays.size() < kFewestMatchPoints) return result;
   if (!hypotheses_.empty()) {
     if (const auto motion = motion_to(cloud, T_odom_base))
       hypotheses_.move(*motion);
     else
       hypotheses_.clear();
   }
-  Localisation result = from_match(cloud, matcher.match(cloud, std::nullopt));
-  result.global = true;
   std::vector<PoseMode> modes = result.modes;
   for (const PoseMode& expected : hypotheses_.places())
     if (!lists(result.modes, expected.T_map_base))
       modes.push_back(found_again(matcher, cloud, expected));
-  const auto rays = choose_evidence_rays(cloud, kRays, kSpacing_m);
   for (PoseMode& mode : modes) mode.support = support(evidence.at(mode.T_map_base, rays));
   hypotheses_.weigh(modes);
   last_ = cloud;
