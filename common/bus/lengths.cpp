@@ -78,7 +78,7 @@ Fault check_lengths(const keyframe_t& message) {
 }
 
 Fault check_lengths(const localisation_t& message) {
-  return Lengths().array(message.n_modes, message.modes, 104).fault();
+  return Lengths().array(message.n_modes, message.modes, 112).fault();
 }
 
 Fault check_lengths(const map_octree_t& message) {
