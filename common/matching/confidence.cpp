@@ -10,9 +10,9 @@ namespace {
 // Places are compared by (what is left unexplained + kSlack) ^ -kPlacePower: where one place
 // explains nearly all, a hundredth less counts more than where all leave much to explain.
 constexpr double kPlacePower = 18.0, kSlack = 0.02;
-constexpr double kFoundBias = -23.3, kFoundSupport = 25.7, kFoundMargin = 21.8;
+constexpr double kFoundBias = -24.4, kFoundSupport = 26.9, kFoundMargin = 35.2;
 // A rival that is farther behind than this says no more than none.
-constexpr double kFarBehind = 0.2;
+constexpr double kFarBehind = 0.08;
 
 }  // namespace
 

@@ -15,7 +15,7 @@ constexpr double kHopeless = 30.0;
 // A scan after the first counts this much once the robot has moved that far (m), and in proportion
 // before: neighbouring scans see the same things, and err together. Most of all they do so in a
 // building that the map is not of.
-constexpr ScanWeight kNext{0.5, 0.25};
+constexpr ScanWeight kNext{0.5, 0.15};
 constexpr double kNextDistance_m = 0.5;
 
 bool same_place(const Pose2& a, const Pose2& b) {

@@ -16,7 +16,7 @@ import math
 import sys
 from collections import defaultdict
 
-FAR_BEHIND = 0.2
+FAR_BEHIND = 0.08
 SLACK = 0.02
 DAMPING = 1e-4
 
