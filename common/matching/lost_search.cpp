@@ -9,7 +9,7 @@ namespace voxlist {
 namespace {
 
 // What counts as sure, and when one of the modes is probably right.
-constexpr double kSure = 0.99, kLikely = 0.2;
+constexpr double kSure = 0.992, kLikely = 0.2;
 
 // Many rays close together: places may be alike but for a small thing.
 constexpr std::size_t kRays = 3000;
