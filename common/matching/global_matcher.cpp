@@ -8,7 +8,10 @@
 namespace voxlist {
 namespace {
 
-constexpr std::size_t kModes = 24, kBestModes = 8;
+// Kept are the best, and all whose support comes near the first one's: of rooms that are alike, the
+// right one must be among them.
+constexpr std::size_t kModes = 48, kBestModes = 8;
+constexpr double kNear = 0.08;
 constexpr std::size_t kFewPoints = 400;
 
 }  // namespace
@@ -42,7 +45,11 @@ Match GlobalMatcher::match(const Cloud& cloud) {
   // Most of the way with few points, the best ones the rest.
   match.modes = refined(surfels_, some_of(points, kFewPoints), candidates_of(found, scan.size()));
   weigh(*evidence_, rays, match);
-  if (match.modes.size() > kBestModes) match.modes.resize(kBestModes);
+  std::size_t kept = 0;
+  while (kept < match.modes.size() &&
+         (kept < kBestModes || match.modes[kept].support > match.modes.front().support - kNear))
+    ++kept;
+  match.modes.resize(kept);
   match.modes = refined(surfels_, points, match.modes);
   weigh(*evidence_, rays, match);
   const TolerantMap& cells = map.tolerant();
