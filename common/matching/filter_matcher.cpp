@@ -15,7 +15,9 @@ class ParticleFilterMatcher : public Matcher {
       : map_(map), config_(config) {}
 
   Match match(const Cloud& cloud, const std::optional<PoseWindow>& window) override {
-    const MatchPoints scan = chosen_points(cloud.points, config_, 0.05, config_.refine_points);
+    const MatchPoints scan = choose_match_points(cloud, {.max_range_m = config_.max_range_m,
+                                                         .spacing_m = 0.05,
+                                                         .max_points = config_.refine_points});
     if (scan.points.size() < kFewestMatchPoints) return {};
     const auto found =
         ready().filter.localise(scan.points, window.value_or(whole_map(map_.occupied)));
@@ -33,7 +35,7 @@ class ParticleFilterMatcher : public Matcher {
       if (!holds(candidates, particle.pose))
         candidates.push_back(candidate(particle.pose, particle.weight / voxels));
     }
-    match.modes = refined(ready().surfels, scan.points, candidates);
+    match.modes = refined(ready().surfels, scan, candidates);
     weigh(ready().evidence, choose_evidence_rays(cloud), match);
     return match;
   }

@@ -67,15 +67,6 @@ void weigh(const EvidenceMap& map, const std::vector<EvidenceRay>& rays, Match& 
   }
   std::stable_sort(match.modes.begin(), match.modes.end(),
                    [](const auto& a, const auto& b) { return a.support > b.support; });
-  if (match.modes.empty()) return;
-  match.margin = match.modes.front().support -
-                 (match.modes.size() > 1 ? std::max(0.0, match.modes[1].support) : 0.0);
-}
-
-MatchPoints chosen_points(std::span<const Eigen::Vector3f> points, const MatcherConfig& config,
-                          double spacing_m, int most) {
-  return choose_match_points(
-      points, {.max_range_m = config.max_range_m, .spacing_m = spacing_m, .max_points = most});
 }
 
 double log10_significance(std::int64_t volume, std::int64_t occupied, std::size_t points,

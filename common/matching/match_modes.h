@@ -1,6 +1,5 @@
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "matching/matcher.h"
@@ -31,10 +30,6 @@ double support(const Evidence& evidence);
 
 /// Weighs the match's modes by a scan's rays, and sorts them by their support.
 void weigh(const EvidenceMap& map, const std::vector<EvidenceRay>& rays, Match& match);
-
-/// The points of a scan that a search, or a refinement, uses.
-MatchPoints chosen_points(std::span<const Eigen::Vector3f> points, const MatcherConfig& config,
-                          double spacing_m, int most);
 
 /// log10 significance of the best of `poses` poses (paper, section IV): `occupied` of `volume`
 /// cells, and an overlap of that many of the points.

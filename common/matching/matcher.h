@@ -65,8 +65,6 @@ struct Match {
   /// Best first, distinct in pose; empty when there is nothing to match. By support after a search
   /// of the whole map, by fit after others.
   std::vector<MatchMode> modes;
-  /// How much more support the first mode has than the second, or than none.
-  double margin = 0.0;
   /// No pose of the lattice overlaps more than the best found.
   bool certified = false;
   /// No mode of nearly as much overlap was left out for want of time.

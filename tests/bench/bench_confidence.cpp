@@ -1,18 +1,20 @@
 // How honest "how sure" is: single scans, drives of ten scans, and kidnapped robots, in ordinary
 // floors, the same with moved furniture and people, hotels, floors of identical rooms, and scans of
 // buildings that the map is not of.
-// Arguments: scans of each kind and floor, drives (and kidnappings) of each kind and floor, first
-// seed, last seed, and a file for what fit_confidence.py reads.
+// Arguments: --csv FILE; scans of each kind and floor, drives (and kidnappings) of each kind and
+// floor, first seed, last seed, and a file for what fit_confidence.py reads.
 #include <tbb/global_control.h>
 
 #include <array>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
+#include <fstream>
 #include <map>
 #include <numbers>
+#include <stdexcept>
 #include <string>
 
+#include "bench/figures.h"
 #include "bench/test_drive.h"
 #include "bench/test_floor.h"
 #include "matching/localiser.h"
@@ -62,6 +64,19 @@ struct Tally {
         name.c_str(), asked, tracking_right, tracking_wrong, ambiguous, ambiguous_listed, lost,
         first_right, most_of_wrong);
   }
+
+  void add_figures(const std::string& name, std::vector<Figure>& figures) const {
+    const auto add = [&](const char* measure, double value) {
+      figures.push_back({"five kinds of floors", name, measure, value});
+    };
+    add("asked", asked);
+    add("tracking_right", tracking_right);
+    add("tracking_wrong", tracking_wrong);
+    add("ambiguous", ambiguous);
+    add("ambiguous_and_right_listed", ambiguous_listed);
+    add("lost", lost);
+    add("highest_probability_of_a_wrong_one", most_of_wrong);
+  }
 };
 
 // How often the first mode was right where its probability was said to be so much.
@@ -92,16 +107,6 @@ struct Reliability {
   }
 };
 
-// A few rooms: where little else is there, a wrong pose has few rivals.
-TestFloorConfig small_floor(int seed) {
-  TestFloorConfig config = floor_60_40(seed);
-  config.name = "16 x 13 m, seed " + std::to_string(seed);
-  config.wing.length_m = 16.0;
-  config.wing.rooms = 4;
-  config.wings = 1;
-  return config;
-}
-
 struct Kind {
   std::string name;
   bool changed, foreign;
@@ -124,13 +129,12 @@ Building now(const Kind& kind, const TestFloorConfig& config) {
 
 class Bench {
  public:
-  Bench(int scans, int drives, const char* csv) : scans_(scans), drives_(drives) {
-    if (csv) csv_ = std::fopen(csv, "w");
-    if (csv_) std::fprintf(csv_, "kind,seed,query,mode,right,support\n");
-  }
-  ~Bench() {
-    print();
-    if (csv_) std::fclose(csv_);
+  // `modes`: where each listed mode is written to, for the fit; nullptr: nowhere.
+  Bench(int scans, int drives, const char* modes) : scans_(scans), drives_(drives) {
+    if (!modes) return;
+    modes_.open(modes);
+    if (!modes_) throw std::runtime_error(std::string("cannot write ") + modes);
+    modes_ << "kind,seed,query,mode,right,support\n";
   }
 
   void floor(const TestFloorConfig& config, const std::vector<Kind>& kinds, int seed) {
@@ -142,6 +146,23 @@ class Bench {
       drives(kind, floor, building, localiser, seed);
       kidnappings(kind, floor, building, localiser, seed);
     }
+  }
+
+  // Prints what was counted, and gives it as figures.
+  std::vector<Figure> finish() const {
+    std::vector<Figure> figures;
+    const auto show = [&](const std::map<std::string, Tally>& tallies, const char* what) {
+      for (const auto& [name, tally] : tallies) {
+        tally.print(name + what);
+        tally.add_figures(name + what, figures);
+      }
+    };
+    show(singles_, "");
+    show(drives_by_kind_, ", driving");
+    show(kidnapped_, ", kidnapped");
+    reliability_.print();
+    std::fflush(stdout);
+    return figures;
   }
 
  private:
@@ -156,19 +177,17 @@ class Bench {
       const Localisation result = localiser.locate(scan);
       singles_[kind.name].add(result, truth, kind.foreign);
       reliability_.add(result.confidence, right_mode(result, truth, kind.foreign) == 0);
-      write(kind, seed, i, result, truth);
+      if (modes_.is_open()) write(kind, seed, i, result, truth);
       ++i;
     }
   }
 
   void write(const Kind& kind, int seed, int query, const Localisation& result,
              const Pose2& truth) {
-    if (!csv_) return;
     const int listed = right_mode(result, truth, kind.foreign);
     for (std::size_t m = 0; m < result.modes.size(); ++m)
-      std::fprintf(csv_, "%s,%d,%d,%zu,%d,%.5f\n", kind.name.c_str(), seed, query, m,
-                   static_cast<int>(m) == listed, result.modes[m].support);
-    std::fflush(csv_);
+      modes_ << kind.name << ',' << seed << ',' << query << ',' << m << ','
+             << (static_cast<int>(m) == listed) << ',' << result.modes[m].support << '\n';
   }
 
   // Until the robot is sure, or ten scans have not sufficed.
@@ -214,16 +233,8 @@ class Bench {
     }
   }
 
-  void print() const {
-    for (const auto& [name, tally] : singles_) tally.print(name);
-    for (const auto& [name, tally] : drives_by_kind_) tally.print(name + ", driving");
-    for (const auto& [name, tally] : kidnapped_) tally.print(name + ", kidnapped");
-    reliability_.print();
-    std::fflush(stdout);
-  }
-
   const int scans_, drives_;
-  std::FILE* csv_ = nullptr;
+  std::ofstream modes_;
   std::map<std::string, Tally> singles_, drives_by_kind_, kidnapped_;
   Reliability reliability_;
 };
@@ -233,7 +244,7 @@ void run(Bench& bench, int first_seed, int last_seed) {
     bench.floor(floor_60_40(seed), {kKinds.begin(), kKinds.begin() + 3}, seed);
     bench.floor(hotel_floor(seed), {kKinds.begin() + 3, kKinds.begin() + 6}, seed);
     bench.floor(identical_floor(seed), {kKinds[6]}, seed);
-    bench.floor(small_floor(seed), {kKinds.begin() + 7, kKinds.end()}, seed);
+    bench.floor(floor_16_13(seed), {kKinds.begin() + 7, kKinds.end()}, seed);
   }
 }
 
@@ -242,15 +253,19 @@ void run(Bench& bench, int first_seed, int last_seed) {
 
 int main(int argc, char** argv) {
   using namespace voxlist;
+  const auto csv = take_csv_option(argc, argv);
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
   // What ctest passes to all benchmarks: one small run.
-  if (argc > 1 && std::strncmp(argv[1], "--", 2) == 0) {
-    Bench(3, 1, nullptr).floor(small_floor(1), {kKinds[7]}, 1);
-    return 0;
-  }
+  const bool brief = argc > 1 && std::string(argv[1]).starts_with("--");
   const auto argument = [&](int i, int otherwise) {
     return argc > i ? std::atoi(argv[i]) : otherwise;
   };
-  Bench bench(argument(1, 20), argument(2, 10), argc > 5 ? argv[5] : nullptr);
-  run(bench, argument(3, 1), argument(4, argument(3, 1)));
+  Bench bench(brief ? 3 : argument(1, 20), brief ? 1 : argument(2, 10),
+              argc > 5 ? argv[5] : nullptr);
+  if (brief)
+    bench.floor(floor_16_13(1), {kKinds[7]}, 1);
+  else
+    run(bench, argument(3, 1), argument(4, argument(3, 1)));
+  const auto figures = bench.finish();
+  if (csv) append_csv(*csv, "bench_confidence", figures);
 }

@@ -3,7 +3,6 @@
 // 60x40, 200x150 or 40x25 (dense scans by a laser that sees all round); queries for each case;
 // seed; "list" for one line a query. CPU time of one thread.
 #include <tbb/global_control.h>
-#include <time.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -24,16 +23,9 @@ namespace {
 constexpr double kClear = 0.1;
 constexpr double kRight_m = 0.05, kRight_rad = 0.5 * std::numbers::pi / 180.0;
 
-double cpu_ms() {
-  timespec t{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_nsec) * 1e-6;
-}
-
-double percentile(std::vector<double> values, double share) {
-  if (values.empty()) return 0.0;
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+// By how much the first mode's support is ahead.
+double margin(const std::vector<MatchMode>& modes) {
+  return modes.front().support - (modes.size() > 1 ? std::max(0.0, modes[1].support) : 0.0);
 }
 
 struct Tally {
@@ -49,7 +41,7 @@ struct Tally {
     const Pose2& pose = match.modes.front().pose;
     const double error_m = distance_m(pose, truth);
     const bool is_right = !foreign && error_m < kRight_m && turn_rad(pose, truth) < kRight_rad;
-    const bool is_clear = match.complete && match.margin >= kClear;
+    const bool is_clear = match.complete && margin(match.modes) >= kClear;
     right += is_right;
     clear += is_clear;
     clear_wrong += is_clear && !is_right;
@@ -74,20 +66,13 @@ struct Tally {
             figure("cpu_p95_ms", percentile(times_ms, 0.95)),
             figure("cpu_max_ms", percentile(times_ms, 1.0))};
   }
-
-  void print() const {
-    std::printf("  %s\n   ", name.c_str());
-    for (const Figure& f : figures()) std::printf(" %s %.4g", f.measure.c_str(), f.value);
-    std::printf("\n");
-    std::fflush(stdout);
-  }
 };
 
 void list(const Match& match, const Pose2& truth) {
   if (match.modes.empty()) return;
   const MatchMode& best = match.modes.front();
   std::printf("query: off %.3f m, support %.3f, margin %.3f, %zu modes, complete %d\n",
-              distance_m(best.pose, truth), best.support, match.margin, match.modes.size(),
+              distance_m(best.pose, truth), best.support, margin(match.modes), match.modes.size(),
               match.complete);
 }
 
@@ -120,7 +105,7 @@ Tally run(const TestFloor& floor, const Case& test, Matcher& matcher, int querie
     tally.add(match, truth, test.foreign, cpu_ms() - start_ms);
     if (listed) list(match, truth);
   }
-  tally.print();
+  print("  " + tally.name, tally.figures());
   return tally;
 }
 

@@ -3,7 +3,6 @@
 // scan takes. Arguments, each optional: --csv FILE; first seed; number of seeds. CPU time of one
 // thread.
 #include <tbb/global_control.h>
-#include <time.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -21,18 +20,6 @@ namespace voxlist {
 namespace {
 
 constexpr double kStep_m = 0.4, kMostTurn_rad = 24.0 * std::numbers::pi / 180.0;
-
-double cpu_ms() {
-  timespec t{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_nsec) * 1e-6;
-}
-
-double percentile(std::vector<double> values, double share) {
-  if (values.empty()) return 0.0;
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
-}
 
 // Steps towards one goal after another, turning as sharply as allowed: through the first door into
 // its room, back, and along the corridor into the next, until `length_m` are driven.
@@ -111,10 +98,7 @@ std::vector<Figure> run(const BuildingConfig& config, double length_m) {
                                     figure("mapping_cpu_median_ms", percentile(map_ms, 0.5)),
                                     figure("both_cpu_median_ms", percentile(both, 0.5)),
                                     figure("both_cpu_p95_ms", percentile(both, 0.95))};
-  std::printf("%s\n   ", scene.c_str());
-  for (const Figure& f : figures) std::printf(" %s %.4g", f.measure.c_str(), f.value);
-  std::printf("\n");
-  std::fflush(stdout);
+  print(scene, figures);
   return figures;
 }
 

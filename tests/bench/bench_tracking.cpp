@@ -2,7 +2,6 @@
 // poses: how exact, how long, and how well the covariance tells the error. Arguments, each
 // optional: --csv FILE; queries for each case; seed. CPU time of one thread.
 #include <tbb/global_control.h>
-#include <time.h>
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -24,18 +23,6 @@ constexpr double kFound_m = 0.05;
 // 95 % of a chi-square with three degrees of freedom are below: so many normalised errors should
 // be.
 constexpr double kExpected95 = 7.815;
-
-double cpu_ms() {
-  timespec t{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_nsec) * 1e-6;
-}
-
-double percentile(std::vector<double> values, double share) {
-  if (values.empty()) return 0.0;
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
-}
 
 struct Tally {
   std::string scene, name;
@@ -82,13 +69,6 @@ struct Tally {
             figure("cpu_p95_ms", percentile(times_ms, 0.95)),
             figure("cpu_max_ms", percentile(times_ms, 1.0))};
   }
-
-  void print() const {
-    std::printf("  %s\n   ", name.c_str());
-    for (const Figure& f : figures()) std::printf(" %s %.4g", f.measure.c_str(), f.value);
-    std::printf("\n");
-    std::fflush(stdout);
-  }
 };
 
 // How far the prediction is off, and the window round it.
@@ -121,7 +101,7 @@ std::vector<Figure> run(const Case& test, const TestFloor& floor, const Building
     const Match match = matcher.match(scan, window);
     tally.add(match, truth, cpu_ms() - start_ms);
   }
-  tally.print();
+  print("  " + tally.name, tally.figures());
   return tally.figures();
 }
 

@@ -1,5 +1,8 @@
 #include "bench/figures.h"
 
+#include <time.h>
+
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <filesystem>
@@ -27,6 +30,25 @@ std::string quoted(const std::string& text) {
 }
 
 }  // namespace
+
+double cpu_ms() {
+  timespec t{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) * 1e3 + static_cast<double>(t.tv_nsec) * 1e-6;
+}
+
+double percentile(std::vector<double> values, double share) {
+  if (values.empty()) return 0.0;
+  std::sort(values.begin(), values.end());
+  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+}
+
+void print(const std::string& title, const std::vector<Figure>& figures) {
+  std::printf("%s\n   ", title.c_str());
+  for (const Figure& f : figures) std::printf(" %s %.4g", f.measure.c_str(), f.value);
+  std::printf("\n");
+  std::fflush(stdout);
+}
 
 std::string machine() {
   std::ifstream cpus("/proc/cpuinfo");

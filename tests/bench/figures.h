@@ -14,6 +14,15 @@ struct Figure {
   double value = 0.0;
 };
 
+/// CPU time of this process, all its threads (ms).
+double cpu_ms();
+
+/// The value that a share of the values, 0..1, do not exceed; 0 when there are none.
+double percentile(std::vector<double> values, double share);
+
+/// Shows figures on the terminal, in one line below a title.
+void print(const std::string& title, const std::vector<Figure>& figures);
+
 /// Takes --csv FILE out of a program's arguments.
 std::optional<std::string> take_csv_option(int& argc, char** argv);
 
