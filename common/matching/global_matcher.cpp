@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "matching/map_density.h"
 #include "matching/match_modes.h"
 
 namespace voxlist {
@@ -62,6 +63,7 @@ Match GlobalMatcher::match(const Cloud& cloud) {
 void GlobalMatcher::map_changed() {
   maps_.clear();
   evidence_.reset();
+  closed_cell_m_.reset();
 }
 
 // How far most of the scan reaches, in few steps: the map is made ready for each, and the lattice
@@ -81,8 +83,11 @@ double GlobalMatcher::reach_m(std::span<const Eigen::Vector3f> points) const {
 
 const GlobalMap& GlobalMatcher::map_for(double reach_m) {
   const auto [found, added] = maps_.try_emplace(reach_m);
-  if (added)
-    found->second = std::make_unique<GlobalMap>(map_.occupied, config_.resolution_m, reach_m);
+  if (!added) return *found->second;
+  if (!closed_cell_m_) closed_cell_m_ = closed_cell_m(map_.occupied);
+  double cell_m = config_.resolution_m;
+  while (cell_m < *closed_cell_m_) cell_m *= 2.0;
+  found->second = std::make_unique<GlobalMap>(map_.occupied, cell_m, reach_m);
   return *found->second;
 }
 

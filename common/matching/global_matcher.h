@@ -30,6 +30,7 @@ class GlobalMatcher {
   const SurfelMap& surfels_;
   const MatcherConfig config_;
   std::optional<EvidenceMap> evidence_;
+  std::optional<double> closed_cell_m_;
   std::map<double, std::unique_ptr<const GlobalMap>> maps_;  // by reach
 };
 
