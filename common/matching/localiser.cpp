@@ -120,9 +120,10 @@ std::optional<Localisation> Localiser::track(const Cloud& cloud,
   const MatchMode& mode = match.modes.front();
   const auto rays = choose_evidence_rays(cloud, kRays);
   const Evidence seen = evidence().at(mode.pose, rays);
-  const auto verdict = track_->judge(mode, seen);
-  if (verdict == PoseTrack::Verdict::kLost) return std::nullopt;
-  if (verdict == PoseTrack::Verdict::kDoubtful && fits_better_elsewhere(cloud, rays, mode.pose))
+  const PoseTrack::Judgement judgement = track_->judge(cloud, T_odom_base, mode, seen);
+  if (judgement.verdict == PoseTrack::Verdict::kLost) return std::nullopt;
+  if (judgement.verdict == PoseTrack::Verdict::kDoubtful &&
+      fits_better_elsewhere(cloud, rays, mode.pose, judgement.worth))
     return std::nullopt;
   track_->advance(cloud, T_odom_base, mode, seen);
   Localisation result = from_match(cloud, match);
@@ -132,12 +133,11 @@ std::optional<Localisation> Localiser::track(const Cloud& cloud,
 }
 
 bool Localiser::fits_better_elsewhere(const Cloud& cloud, const std::vector<EvidenceRay>& rays,
-                                      const Pose2& pose) {
-  const double here = support(evidence().at(pose, rays));
+                                      const Pose2& pose, double worth) {
   const Match match = matcher().match(cloud, std::nullopt);
   return std::any_of(match.modes.begin(), match.modes.end(), [&](const MatchMode& mode) {
     return distance_m(mode.pose, pose) > kElsewhere_m &&
-           support(evidence().at(mode.pose, rays)) > here + kBetter;
+           support(evidence().at(mode.pose, rays)) > worth + kBetter;
   });
 }
 

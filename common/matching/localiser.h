@@ -70,7 +70,7 @@ class Localiser {
   std::optional<Localisation> track(const Cloud& cloud, const std::optional<Pose2>& T_odom_base);
 
   bool fits_better_elsewhere(const Cloud& cloud, const std::vector<EvidenceRay>& rays,
-                             const Pose2& pose);
+                             const Pose2& pose, double worth);
 
   const OccupancyMap& map_;
   const LocaliserConfig config_;

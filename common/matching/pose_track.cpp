@@ -13,7 +13,7 @@ constexpr double kLeastOverlap = 0.15, kLeastFitShare = 0.4;
 // The window grows to all that motion allows when the fit falls below this share of the last one.
 constexpr double kDoubtfulFitShare = 0.8;
 // Support that falls so far below its running mean makes a pose doubtful, or lost.
-constexpr double kDoubtfulDrop = 0.08, kLostDrop = 0.35;
+constexpr double kDoubtfulDrop = 0.06, kLostDrop = 0.35;
 constexpr double kSupportMemory = 0.7;
 // Support means something where the map knows this share of the rays' ends.
 constexpr double kKnownShare = 0.3;
@@ -23,17 +23,14 @@ constexpr double kWindow_m = 0.4, kWindow_rad = 0.3;
 constexpr double kWindowShare = 0.2;
 
 // A heavy-tailed prior on the distance from the prediction: decides between poses that fit alike.
-// Odometry is worth more than a guess from the last step.
+// Odometry is worth more than a guess from the last step, the less the farther the robot went.
 struct Prior {
   double weight, scale_m, scale_rad;
 };
 constexpr Prior kGuess{0.08, 0.5, 0.5}, kOdometry{0.2, 0.1, 0.1};
-
-double prior_cost(const Pose2& pose, const Pose2& predicted, const Prior& prior) {
-  const double d = distance_m(pose, predicted) / prior.scale_m,
-               turn = turn_rad(pose, predicted) / prior.scale_rad;
-  return prior.weight * std::log1p(d * d + turn * turn);
-}
+constexpr double kOdometryShare = 0.1;
+// The most that it takes to believe an unlikely motion: wheels slip.
+constexpr double kMostSurprise = 0.1;
 
 double best_fit(const Match& match) { return match.modes.empty() ? 0.0 : match.modes.front().fit; }
 
@@ -50,6 +47,17 @@ Pose2 PoseTrack::predict(std::int64_t now_us, const std::optional<Pose2>& T_odom
   const double dt_s = static_cast<double>(now_us - utime_us_) * 1e-6;
   // Only over steps alike: after a gap the old speed says nothing.
   return step_s_ > 0.0 && dt_s > 0.0 && dt_s < 2.0 * step_s_ ? pose_ * step_ : pose_;
+}
+
+double PoseTrack::surprise(const Pose2& pose, const Pose2& predicted, bool odometry_now) const {
+  Prior prior = kGuess;
+  if (T_odom_base_ && odometry_now) {
+    prior = kOdometry;
+    prior.scale_m += kOdometryShare * distance_m(predicted, pose_);
+  }
+  const double d = distance_m(pose, predicted) / prior.scale_m,
+               turn = turn_rad(pose, predicted) / prior.scale_rad;
+  return prior.weight * std::log1p(d * d + turn * turn);
 }
 
 Match PoseTrack::match(Matcher& matcher, const Cloud& cloud,
@@ -69,9 +77,8 @@ Match PoseTrack::match(Matcher& matcher, const Cloud& cloud,
     match.complete = match.complete && wide.complete;
     match.poses_examined += wide.poses_examined;
   }
-  const Prior& prior = T_odom_base_ && T_odom_base ? kOdometry : kGuess;
   const auto score = [&](const MatchMode& mode) {
-    return mode.fit - prior_cost(mode.pose, predicted, prior);
+    return mode.fit - surprise(mode.pose, predicted, T_odom_base.has_value());
   };
   const auto best =
       std::max_element(match.modes.begin(), match.modes.end(),
@@ -80,12 +87,18 @@ Match PoseTrack::match(Matcher& matcher, const Cloud& cloud,
   return match;
 }
 
-PoseTrack::Verdict PoseTrack::judge(const MatchMode& mode, const Evidence& evidence) const {
-  if (mode.overlap < kLeastOverlap || mode.fit < kLeastFitShare * fit_) return Verdict::kLost;
-  if (!support_ || !map_knows(evidence)) return Verdict::kExplains;
-  const double drop = *support_ - support(evidence);
-  if (drop > kLostDrop) return Verdict::kLost;
-  return drop > kDoubtfulDrop ? Verdict::kDoubtful : Verdict::kExplains;
+PoseTrack::Judgement PoseTrack::judge(const Cloud& cloud, const std::optional<Pose2>& T_odom_base,
+                                      const MatchMode& mode, const Evidence& evidence) const {
+  const double supported = support(evidence);
+  const double unlikely =
+      surprise(mode.pose, predict(cloud.utime_us, T_odom_base), T_odom_base.has_value());
+  const double worth = supported - std::min(unlikely, kMostSurprise);
+  if (mode.overlap < kLeastOverlap || mode.fit < kLeastFitShare * fit_)
+    return {Verdict::kLost, worth};
+  if (!support_ || !map_knows(evidence)) return {Verdict::kExplains, worth};
+  if (*support_ - supported > kLostDrop) return {Verdict::kLost, worth};
+  const bool doubtful = *support_ - worth > kDoubtfulDrop;
+  return {doubtful ? Verdict::kDoubtful : Verdict::kExplains, worth};
 }
 
 void PoseTrack::advance(const Cloud& cloud, const std::optional<Pose2>& T_odom_base,

@@ -26,16 +26,24 @@ class PoseTrack {
   Match match(Matcher& matcher, const Cloud& cloud, const std::optional<Pose2>& T_odom_base,
               const MotionLimits& limits) const;
 
-  /// How well a pose explains its scan, beside the scans before. What the map does not know is no
-  /// objection.
+  /// How well a pose explains its scan: beside the scans before, and the motion since. What the map
+  /// does not know is no objection.
   enum class Verdict { kExplains, kDoubtful, kLost };
-  Verdict judge(const MatchMode& mode, const Evidence& evidence) const;
+  struct Judgement {
+    Verdict verdict;
+    /// The pose's support, less what it takes to believe that motion.
+    double worth = 0.0;
+  };
+  Judgement judge(const Cloud& cloud, const std::optional<Pose2>& T_odom_base,
+                  const MatchMode& mode, const Evidence& evidence) const;
 
   /// Goes on from a pose.
   void advance(const Cloud& cloud, const std::optional<Pose2>& T_odom_base, const MatchMode& mode,
                const Evidence& evidence);
 
  private:
+  double surprise(const Pose2& pose, const Pose2& predicted, bool odometry_now) const;
+
   std::int64_t utime_us_;
   Pose2 pose_;
   std::optional<Pose2> T_odom_base_;
