@@ -5,6 +5,7 @@
 
 #include "matching/map_density.h"
 #include "matching/match_modes.h"
+#include "matching/overlap_peak.h"
 
 namespace voxlist {
 namespace {
@@ -32,12 +33,13 @@ Match GlobalMatcher::match(const Cloud& cloud) {
   config.max_modes = kModes;
   config.mode_distance_m = 0.25;
   config.mode_turn_rad = 0.1;
-  const SearchResult found = global_search(map, scan, config);
+  SearchResult found = global_search(map, scan, config);
   Match match;
   match.certified = found.certified;
   match.complete = found.complete;
   match.poses_examined = found.poses_examined;
   if (found.modes.empty()) return match;
+  for (OverlapMode& mode : found.modes) mode.pose = middle_of_peak(map.tolerant(), scan, mode.pose);
   const MatchPoints points = choose_match_points(
       cloud,
       {.max_range_m = config_.max_range_m, .spacing_m = 0.1, .max_points = config_.refine_points});

@@ -3,14 +3,13 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <iterator>
 #include <numeric>
 #include <stdexcept>
 
-#include "matching/bit_counters.h"
 #include "matching/turned_points.h"
+#include "matching/window_counters.h"
 
 namespace voxlist {
 namespace {
@@ -22,8 +21,6 @@ constexpr std::int32_t kGroup = TurnedPoints::kGroup;
 // before.
 constexpr int kBands = 64;
 
-using WindowCounters = BitCounters<std::uint64_t, kCountPlanes>;
-
 // Translations [8 x, 8 x + 8) x [8 y, 8 y + 8) at the angles of a group.
 struct Node {
   int bound;
@@ -34,39 +31,6 @@ struct LatticePose {
   int overlap;
   std::int32_t angle, x, y;  // cells of the map
 };
-
-int largest(const WindowCounters& counters) {
-  std::uint64_t lanes = ~std::uint64_t{0};
-  int value = 0;
-  for (std::size_t p = kCountPlanes; p-- > 0;) {
-    if (const std::uint64_t with = lanes & counters.planes[p]) {
-      lanes = with;
-      value |= 1 << p;
-    }
-  }
-  return value;
-}
-
-// Lanes of a word of counters that are at least `least`: compared from the highest digit down.
-std::uint64_t lanes_from(const WindowCounters& counters, int least) {
-  std::uint64_t greater = 0, equal = ~std::uint64_t{0};
-  for (std::size_t p = kCountPlanes; p-- > 0;) {
-    if (least >> p & 1) {
-      equal &= counters.planes[p];
-    } else {
-      greater |= equal & counters.planes[p];
-      equal &= ~counters.planes[p];
-    }
-  }
-  return greater | equal;
-}
-
-int count_of(const WindowCounters& counters, int lane) {
-  int count = 0;
-  for (std::size_t p = 0; p < kCountPlanes; ++p)
-    count |= static_cast<int>(counters.planes[p] >> lane & 1) << p;
-  return count;
-}
 
 // Upper bounds of all nodes.
 class Bounds {
@@ -89,15 +53,14 @@ class Bounds {
       for (std::size_t word = 0; word < counts_[group].words; ++word) {
         if (highest_[group][word] < least) continue;
         const WindowCounters counters = counters_at(group, word);
-        for (std::uint64_t lanes = lanes_from(counters, least) & ~lanes_from(counters, most + 1);
-             lanes != 0; lanes &= lanes - 1) {
-          const int lane = std::countr_zero(lanes);
+        const std::uint64_t lanes = lanes_from(counters, least) & ~lanes_from(counters, most + 1);
+        for_each_lane(lanes, [&](int lane) {
           const std::int64_t bit = static_cast<std::int64_t>(64 * word) + lane;
           const Node node{count_of(counters, lane), static_cast<std::int32_t>(group),
                           static_cast<std::int32_t>(bit % map_.row_bits()),
                           static_cast<std::int32_t>(bit / map_.row_bits())};
           if (node.x < map_.size_x() && node.y < map_.size_y()) nodes.push_back(node);
-        }
+        });
       }
     }
     return by_tile(nodes);
@@ -166,11 +129,10 @@ class PoseCounter {
       return;
     }
     const std::int32_t angle = node.group * kGroup + part - TurnedPoints::kFirstSingle;
-    for (; lanes != 0; lanes &= lanes - 1) {
-      const int lane = std::countr_zero(lanes);
+    for_each_lane(lanes, [&](int lane) {
       visit(LatticePose{count_of(counters, lane), angle, node.x * kFactor + lane / kFactor,
                         node.y * kFactor + lane % kFactor});
-    }
+    });
   }
 
   // Stops early, below `least`, when no lane can reach it any more.

@@ -19,7 +19,7 @@ bool same_mode(const MatchMode& mode, const Pose2& pose) {
 
 MatchMode candidate(const Pose2& pose, double overlap) {
   MatchMode mode;
-  mode.pose = pose;
+  mode.pose = mode.start = pose;
   mode.overlap = overlap;
   return mode;
 }

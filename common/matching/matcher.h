@@ -51,6 +51,8 @@ struct MatcherConfig {
 struct MatchMode {
   Pose2 pose;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  /// Before refinement.
+  Pose2 start;
   /// Share of the points in occupied cells of the tolerant map, before refinement.
   double overlap = 0.0;
   /// Share of the points that lie on the map's surfaces, after refinement.

@@ -1,7 +1,8 @@
 // Single scans located in whole simulated floors without a guess: how often right, how often clear
-// (one place far ahead of the others), how exact, how long. Arguments, each optional: --csv FILE;
-// 60x40, 200x150 or 40x25 (dense scans by a laser that sees all round); queries for each case;
-// seed; "list" for one line a query. CPU time of one thread.
+// (one place far ahead of the others), how exact, how long; and how often the pose was right before
+// it was refined: the first one's, and that of the most overlap. Arguments, each optional: --csv
+// FILE; 60x40, 200x150 or 40x25 (dense scans by a laser that sees all round); queries for each
+// case; seed; "list" for one line a query. CPU time of one thread.
 #include <tbb/global_control.h>
 
 #include <algorithm>
@@ -28,9 +29,19 @@ double margin(const std::vector<MatchMode>& modes) {
   return modes.front().support - (modes.size() > 1 ? std::max(0.0, modes[1].support) : 0.0);
 }
 
+bool is_at(const Pose2& pose, const Pose2& truth) {
+  return distance_m(pose, truth) < kRight_m && turn_rad(pose, truth) < kRight_rad;
+}
+
+const MatchMode& most_overlap(const std::vector<MatchMode>& modes) {
+  return *std::max_element(modes.begin(), modes.end(),
+                           [](auto& a, auto& b) { return a.overlap < b.overlap; });
+}
+
 struct Tally {
   std::string scene, name;
-  int queries = 0, right = 0, certified = 0, clear = 0, clear_wrong = 0;
+  int queries = 0, right = 0, start_right = 0, overlap_right = 0, certified = 0, clear = 0,
+      clear_wrong = 0;
   std::vector<double> errors_m, turns_deg, times_ms;
 
   void add(const Match& match, const Pose2& truth, bool foreign, double ms) {
@@ -39,14 +50,15 @@ struct Tally {
     certified += match.certified && match.complete;
     if (match.modes.empty()) return;
     const Pose2& pose = match.modes.front().pose;
-    const double error_m = distance_m(pose, truth);
-    const bool is_right = !foreign && error_m < kRight_m && turn_rad(pose, truth) < kRight_rad;
+    const bool is_right = !foreign && is_at(pose, truth);
     const bool is_clear = match.complete && margin(match.modes) >= kClear;
     right += is_right;
+    start_right += !foreign && is_at(match.modes.front().start, truth);
+    overlap_right += !foreign && is_at(most_overlap(match.modes).start, truth);
     clear += is_clear;
     clear_wrong += is_clear && !is_right;
     if (!is_right) return;
-    errors_m.push_back(error_m);
+    errors_m.push_back(distance_m(pose, truth));
     turns_deg.push_back(turn_rad(pose, truth) * 180.0 / std::numbers::pi);
   }
 
@@ -57,6 +69,8 @@ struct Tally {
     const auto share = [this](int n) { return static_cast<double>(n) / queries; };
     return {figure("queries", queries),
             figure("right_share", share(right)),
+            figure("right_before_refinement_share", share(start_right)),
+            figure("most_overlap_right_share", share(overlap_right)),
             figure("clear_share", share(clear)),
             figure("clear_and_wrong", clear_wrong),
             figure("certified_share", share(certified)),
