@@ -39,10 +39,11 @@ bool holds(const std::vector<MatchMode>& modes, const Pose2& pose) {
 }
 
 std::vector<MatchMode> refined(const SurfelMap& surfels, const RayPoints& points,
-                               const std::vector<MatchMode>& candidates) {
+                               const std::vector<MatchMode>& candidates,
+                               const RefineConfig& config) {
   std::vector<MatchMode> modes;
   for (MatchMode mode : candidates) {
-    const Refinement refinement = refine(surfels, points, mode.pose);
+    const Refinement refinement = refine(surfels, points, mode.pose, config);
     mode.pose = refinement.pose;
     mode.covariance = refinement.covariance;
     mode.fit = refinement.inlier_share;

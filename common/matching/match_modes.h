@@ -22,7 +22,8 @@ bool holds(const std::vector<MatchMode>& modes, const Pose2& pose);
 
 /// Refines candidates and keeps the distinct ones, in their order.
 std::vector<MatchMode> refined(const SurfelMap& surfels, const RayPoints& points,
-                               const std::vector<MatchMode>& candidates);
+                               const std::vector<MatchMode>& candidates,
+                               const RefineConfig& config = {});
 
 /// How much evidence speaks for a pose, at most 1: the share of hits among the ends of rays of
 /// which the map knows anything, less what rays went through. Unknown space hardly counts.

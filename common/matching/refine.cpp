@@ -1,10 +1,11 @@
+#include "matching/refine.h"
+
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <cstdint>
 
 #include "matching/numbering.h"
-#include "matching/refine.h"
 
 namespace voxlist {
 namespace {
@@ -56,7 +57,8 @@ struct Held {
 
 template <int kDof>
 std::vector<Held<kDof>> held_points(const SurfelMap& surfels, const RayPoints& scan,
-                                    const Pose3& pose, double scale_m) {
+                                    const Pose3& pose, double scale_m,
+                                    std::vector<SurfelMap::Place>& places) {
   std::vector<Held<kDof>> held;
   held.reserve(scan.points.size());
   const Eigen::Matrix3d turn = pose.linear();
@@ -66,7 +68,7 @@ std::vector<Held<kDof>> held_points(const SurfelMap& surfels, const RayPoints& s
     const Eigen::Vector3d arm = turn * scan.points[i].cast<double>(), p = base + arm;
     const Eigen::Vector3d origin =
         scan.origins.empty() ? base : (base + turn * scan.origins[i].cast<double>()).eval();
-    const Surfel* surfel = surfels.find(p, origin);
+    const Surfel* surfel = surfels.find(p, origin, places[i]);
     if (!surfel) continue;
     const double residual = surfel->normal.dot(p - surfel->mean);
     const double falloff = scale2 / (scale2 + residual * residual);
@@ -174,9 +176,9 @@ Pose3 refine_pose(const SurfelMap& surfels, const RayPoints& scan, const Pose3& 
   lever_m.template head<kShift>().setConstant(1.0);
   lever_m.template tail<kTurn>().setConstant(5.0);
   std::vector<Held<kDof>> held;
-  for (int i = 0; i <= config.max_iterations; ++i) {
-    held = held_points<kDof>(surfels, scan, pose, config.scale_m);
-    if (result.converged || i == config.max_iterations) break;
+  std::vector<SurfelMap::Place> places(scan.points.size());
+  for (int i = 0; i < config.max_iterations && !result.converged; ++i) {
+    held = held_points<kDof>(surfels, scan, pose, config.scale_m, places);
     Square<kDof> information = Square<kDof>::Zero();
     Step<kDof> gradient = Step<kDof>::Zero();
     double squares = 0.0, weights = 0.0;

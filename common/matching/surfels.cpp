@@ -28,8 +28,11 @@ SurfelMap::SurfelMap(const OccupancyMap& map, const SurfelConfig& config)
   cubes_per_m_ = 1.0 / (blocks_ * block_m);
 }
 
-const Surfel* SurfelMap::find(const Eigen::Vector3d& point, const Eigen::Vector3d& origin) const {
-  const Cube& cube = cube_at(cell_at(point, cubes_per_m_));
+const Surfel* SurfelMap::find(const Eigen::Vector3d& point, const Eigen::Vector3d& origin,
+                              Place& place) const {
+  const Voxel position = cell_at(point, cubes_per_m_);
+  if (!place.cube || position != place.position) place = {position, &cube_at(position)};
+  const Cube& cube = *place.cube;
   const Surfel* nearest = nullptr;
   double least_m = std::numeric_limits<double>::infinity();
   for (int i = 0; i < cube.count; ++i) {

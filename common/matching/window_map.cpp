@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
+#include <new>
 
 namespace voxlist {
 namespace {
@@ -11,6 +12,8 @@ namespace {
 constexpr std::int32_t kMargin = 16;
 // Edge of the patches whose occupied cells are counted.
 constexpr std::int32_t kPatch = 32;
+// Room for so many cells more on each side, so that it serves while the robot moves on.
+constexpr std::int32_t kMore = 8 * kPatch;
 // Layers below and above, for a map that grows.
 constexpr std::int32_t kSpareLayers = 2;
 
@@ -18,6 +21,18 @@ CellRectangle whole_patches(const CellRectangle& r) {
   const auto down = [](std::int32_t v) { return floor_div(v, kPatch) * kPatch; };
   const auto up = [&](std::int32_t v) { return down(v + kPatch - 1); };
   return {down(r.low_x), down(r.low_y), up(r.end_x), up(r.end_y)};
+}
+
+CellRectangle widened(const CellRectangle& r, std::int32_t by) {
+  return {r.low_x - by, r.low_y - by, r.end_x + by, r.end_y + by};
+}
+
+// Of the patch that holds a cell.
+std::uint64_t patch_key(std::int32_t x, std::int32_t y) {
+  const auto part = [](std::int32_t v) {
+    return std::uint64_t{static_cast<std::uint32_t>(floor_div(v, kPatch))};
+  };
+  return part(x) << 32 | part(y);
 }
 
 // What a block occupies, from the column before it to the one behind (a byte each) and from the row
@@ -36,40 +51,30 @@ std::uint32_t occupied_cells(const VoxelBlock& bits) {
 
 }  // namespace
 
-WindowMap::WindowMap(const VoxelMap& map, const CellRectangle& ground)
-    : ground_(whole_patches(ground)),
-      low_x_(ground_.low_x - kMargin),
-      low_y_(ground_.low_y - kMargin),
-      size_x_(ground_.end_x + kMargin - low_x_),
-      size_y_(ground_.end_y + kMargin - low_y_) {
-  std::vector<std::size_t> within;
-  std::int32_t highest = std::numeric_limits<std::int32_t>::min(),
-               lowest = std::numeric_limits<std::int32_t>::max();
-  for (std::size_t i = 0; i < map.block_count(); ++i) {
-    const Voxel& block = map.block_position(i);
-    if (!on_ground(block)) continue;
-    within.push_back(i);
-    lowest = std::min(lowest, block.z);
-    highest = std::max(highest, block.z);
+void WindowMap::hold(const CellRectangle& needed) {
+  list_new_blocks();
+  // Blocks near by mark cells of a patch too.
+  const CellRectangle around = whole_patches(widened(needed, kPatch));
+  if (!columns_ || !ground_.holds(around)) make_room(widened(around, kMore));
+  for (std::int32_t y = around.low_y; y < around.end_y; y += kPatch) {
+    for (std::int32_t x = around.low_x; x < around.end_x; x += kPatch) {
+      const auto found = patches_.find(patch_key(x, y));
+      if (found == patches_.end() || found->second.ready) continue;
+      for (const std::uint32_t i : found->second.blocks)
+        mark(map_.block_position(i), map_.block(i));
+      found->second.ready = true;
+    }
   }
-  if (within.empty()) return;
-  lowest_z_ = lowest - kSpareLayers;
-  size_z_ = highest + kSpareLayers + 1 - lowest_z_;
-  columns_.resize(static_cast<std::size_t>(size_x_) * static_cast<std::size_t>(size_y_) *
-                      static_cast<std::size_t>(size_z_) +
-                  kTile);
-  occupied_.resize(patch_of(ground_.low_x, ground_.low_y, lowest_z_ + size_z_));
-  for (const std::size_t i : within) mark(map.block_position(i), map.block(i));
 }
 
-bool WindowMap::add(const VoxelMap& map, const std::vector<Voxel>& blocks) {
+void WindowMap::map_grew(const std::vector<Voxel>& blocks) {
+  list_new_blocks();
+  if (!columns_) return;
   for (const Voxel& position : blocks) {
-    const VoxelBlock* block = map.find_block(position);
-    if (!block || !on_ground(position)) continue;
-    if (position.z < lowest_z_ || position.z >= lowest_z_ + size_z_) return false;
-    mark(position, *block);
+    const auto patch = patches_.find(patch_key(2 * position.x, 2 * position.y));
+    if (patch == patches_.end() || !patch->second.ready) continue;
+    if (const VoxelBlock* block = map_.find_block(position)) mark(position, *block);
   }
-  return true;
 }
 
 WindowMap::Count WindowMap::count(const CellRectangle& rectangle) const {
@@ -80,7 +85,7 @@ WindowMap::Count WindowMap::count(const CellRectangle& rectangle) const {
     std::int64_t in_layer = 0;
     for (std::int32_t y = r.low_y; y < r.end_y; y += kPatch)
       for (std::int32_t x = r.low_x; x < r.end_x; x += kPatch)
-        in_layer += occupied_[patch_of(x, y, z)];
+        in_layer += occupied_[counter_of(x, y, z)];
     if (in_layer == 0) continue;
     if (occupied == 0) lowest = z;
     end = z + 1;
@@ -89,17 +94,56 @@ WindowMap::Count WindowMap::count(const CellRectangle& rectangle) const {
   return {std::int64_t{end - lowest} * (r.end_x - r.low_x) * (r.end_y - r.low_y), occupied};
 }
 
-// Whether a block may occupy cells of the ground, or of the margin at least.
-bool WindowMap::on_ground(const Voxel& block) const {
-  const std::int32_t x = 2 * block.x - low_x_, y = 2 * block.y - low_y_;
-  return x >= kTile && x + kTile <= size_x_ && y >= kTile && y + kTile <= size_y_;
+// A map numbers its blocks as they come.
+void WindowMap::list_new_blocks() {
+  std::uint64_t last_key = 0;
+  Patch* last = nullptr;
+  for (; listed_ < map_.block_count(); ++listed_) {
+    const Voxel& block = map_.block_position(listed_);
+    const std::int32_t x = 2 * block.x, y = 2 * block.y;
+    const std::uint64_t key = patch_key(x, y);
+    if (!last || key != last_key) last = &patches_[key];
+    last_key = key;
+    if (last->blocks.empty()) last->lowest_z = last->highest_z = block.z;
+    last->lowest_z = std::min(last->lowest_z, block.z);
+    last->highest_z = std::max(last->highest_z, block.z);
+    last->blocks.push_back(static_cast<std::uint32_t>(listed_));
+    const bool room_enough = block.z >= lowest_z_ && block.z < lowest_z_ + size_z_;
+    if (!room_enough && ground_.holds({x, y, x + 1, y + 1})) columns_.reset();
+  }
+}
+
+void WindowMap::make_room(const CellRectangle& ground) {
+  ground_ = ground;
+  low_x_ = ground.low_x - kMargin;
+  low_y_ = ground.low_y - kMargin;
+  size_x_ = ground.end_x + kMargin - low_x_;
+  size_y_ = ground.end_y + kMargin - low_y_;
+  std::int32_t highest = std::numeric_limits<std::int32_t>::min(),
+               lowest = std::numeric_limits<std::int32_t>::max();
+  for (auto& [key, patch] : patches_) {
+    patch.ready = false;
+    const Voxel& block = map_.block_position(patch.blocks.front());
+    if (!ground.holds({2 * block.x, 2 * block.y, 2 * block.x + 1, 2 * block.y + 1})) continue;
+    lowest = std::min(lowest, patch.lowest_z);
+    highest = std::max(highest, patch.highest_z);
+  }
+  const bool empty = highest < lowest;
+  lowest_z_ = empty ? 0 : lowest - kSpareLayers;
+  size_z_ = empty ? 0 : highest + kSpareLayers + 1 - lowest_z_;
+  // Pages that nobody touches cost nothing.
+  const auto bytes = static_cast<std::size_t>(size_x_) * static_cast<std::size_t>(size_y_) *
+                     static_cast<std::size_t>(size_z_);
+  columns_.reset(static_cast<std::uint8_t*>(std::calloc(bytes + 1, 1)));
+  if (!columns_) throw std::bad_alloc();
+  occupied_.assign(counter_of(ground.low_x, ground.low_y, lowest_z_ + size_z_), 0);
 }
 
 void WindowMap::mark(const Voxel& block, const VoxelBlock& bits) {
   const std::uint32_t cells = occupied_cells(bits);
   constexpr std::uint32_t kColumns = 0x01010101;
   const std::int32_t x = 2 * block.x - 1, y = 2 * block.y - 1;
-  std::uint8_t* row = columns_.data() + place(x, y, block.z);
+  std::uint8_t* row = columns_.get() + place(x, y, block.z);
   // Rows that begin on the block's first row or behind it, with the cells that are new there.
   for (int d = 0; d < 4; ++d) {
     std::uint32_t held;
@@ -109,7 +153,7 @@ void WindowMap::mark(const Voxel& block, const VoxelBlock& bits) {
       const std::int32_t i = std::countr_zero(news) / 8;
       if (x + i >= ground_.low_x && x + i < ground_.end_x && y + d >= ground_.low_y &&
           y + d < ground_.end_y)
-        ++occupied_[patch_of(x + i, y + d, block.z)];
+        ++occupied_[counter_of(x + i, y + d, block.z)];
     }
     held |= wanted;
     std::memcpy(row + d * std::int64_t{size_x_}, &held, sizeof held);
@@ -124,7 +168,7 @@ void WindowMap::mark(const Voxel& block, const VoxelBlock& bits) {
   }
 }
 
-std::size_t WindowMap::patch_of(std::int32_t x, std::int32_t y, std::int32_t z) const {
+std::size_t WindowMap::counter_of(std::int32_t x, std::int32_t y, std::int32_t z) const {
   const auto along = [](std::int32_t length) { return static_cast<std::size_t>(length / kPatch); };
   const std::size_t per_row = along(ground_.end_x - ground_.low_x),
                     rows = along(ground_.end_y - ground_.low_y);

@@ -11,11 +11,26 @@ namespace {
 // Points that are counted: more tell poses no better apart, the lattice is too coarse for that.
 constexpr std::size_t kCountedPoints = 400;
 
+// A first refinement leaves a millimetre or two to a second one, whose few last steps at a wrong
+// place lead nowhere.
+constexpr RefineConfig kRough{.converged_m = 1e-3};
+constexpr RefineConfig kFine{.max_iterations = 6};
+// Modes that fit so much worse than the best are left as the first refinement has them.
+constexpr double kContends = 0.08;
+
+void by_fit(std::vector<MatchMode>& modes) {
+  std::stable_sort(modes.begin(), modes.end(),
+                   [](const auto& a, const auto& b) { return a.fit > b.fit; });
+}
+
 }  // namespace
 
 WindowMatcher::WindowMatcher(const OccupancyMap& map, const SurfelMap& surfels,
                              const MatcherConfig& config)
-    : map_(map), surfels_(surfels), config_(config), cell_m_(WindowMap::cell_m(map.occupied)) {}
+    : surfels_(surfels),
+      config_(config),
+      cell_m_(WindowMap::cell_m(map.occupied)),
+      window_map_(map.occupied) {}
 
 Match WindowMatcher::match(const Cloud& cloud, const PoseWindow& window) {
   const MatchPoints scan = choose_match_points(
@@ -29,36 +44,30 @@ Match WindowMatcher::match(const Cloud& cloud, const PoseWindow& window) {
   config.mode_distance_m = 0.3;
   config.mode_turn_rad = 0.1;
   const CellRectangle ground = needed_ground(cell_m_, counted.radius_m, window);
-  const WindowMap& window_map = map_for(ground);
-  const SearchResult found = search_window(window_map, cell_m_, counted, window, config);
+  window_map_.hold(ground);
+  const SearchResult found = search_window(window_map_, cell_m_, counted, window, config);
   Match match;
   match.certified = found.certified;
   match.complete = found.complete;
   match.poses_examined = found.poses_examined;
   if (found.modes.empty()) return match;
   // Most of the way with few points: many candidates go to the same place.
-  match.modes = refined(surfels_, counted, candidates_of(found, counted.points.size()));
-  match.modes = refined(surfels_, scan, match.modes);
-  std::stable_sort(match.modes.begin(), match.modes.end(),
-                   [](const auto& a, const auto& b) { return a.fit > b.fit; });
-  const WindowMap::Count count = window_map.count(ground);
+  match.modes = refined(surfels_, counted, candidates_of(found, counted.points.size()), kRough);
+  by_fit(match.modes);
+  // The rest with all: of those that may be best in the end.
+  const double least = match.modes.front().fit - kContends;
+  const auto rest = std::find_if(match.modes.begin(), match.modes.end(),
+                                 [&](const MatchMode& mode) { return mode.fit < least; });
+  std::vector<MatchMode> others(rest, match.modes.end());
+  match.modes.erase(rest, match.modes.end());
+  match.modes = refined(surfels_, scan, match.modes, kFine);
+  std::copy_if(others.begin(), others.end(), std::back_inserter(match.modes),
+               [&](const MatchMode& mode) { return !holds(match.modes, mode.pose); });
+  by_fit(match.modes);
+  const WindowMap::Count count = window_map_.count(ground);
   match.significance_log10 = log10_significance(count.cells, count.occupied, counted.points.size(),
                                                 found.modes.front().overlap, found.lattice_poses);
   return match;
-}
-
-void WindowMatcher::map_grew(const ChangedBlocks& grown) {
-  if (window_map_ && !window_map_->add(map_.occupied, grown.occupied)) window_map_.reset();
-}
-
-const WindowMap& WindowMatcher::map_for(const CellRectangle& needed) {
-  if (!window_map_ || !window_map_->ground().holds(needed)) {
-    // Somewhat more, so that it serves while the robot moves on.
-    constexpr std::int32_t kMore = 32;
-    window_map_.emplace(map_.occupied, CellRectangle{needed.low_x - kMore, needed.low_y - kMore,
-                                                     needed.end_x + kMore, needed.end_y + kMore});
-  }
-  return *window_map_;
 }
 
 }  // namespace voxlist

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <optional>
-
 #include "matching/matcher.h"
 #include "matching/surfels.h"
 #include "matching/window_map.h"
@@ -18,16 +16,13 @@ class WindowMatcher {
   Match match(const Cloud& scan, const PoseWindow& window);
 
   /// These blocks of the map have gained voxels.
-  void map_grew(const ChangedBlocks& grown);
+  void map_grew(const ChangedBlocks& grown) { window_map_.map_grew(grown.occupied); }
 
  private:
-  const WindowMap& map_for(const CellRectangle& needed);
-
-  const OccupancyMap& map_;
   const SurfelMap& surfels_;
   const MatcherConfig config_;
   const double cell_m_;
-  std::optional<WindowMap> window_map_;
+  WindowMap window_map_;
 };
 
 }  // namespace voxlist

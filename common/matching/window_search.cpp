@@ -3,20 +3,15 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <numbers>
 
-#include "matching/bit_counters.h"
-#include "matching/fast_cell.h"
+#include "matching/window_count.h"
 
 namespace voxlist {
 namespace {
 
 constexpr std::int32_t kTile = WindowMap::kTile;
-constexpr std::size_t kPlanes = 13;
-using Counters = BitCounters<std::uint64_t, kPlanes>;
-
 std::int32_t cells_in(double length_m, double cell_m) {
   return static_cast<std::int32_t>(std::ceil(length_m / cell_m));
 }
@@ -45,68 +40,25 @@ struct Lattice {
   Pose2 pose(std::int32_t angle, std::int32_t x, std::int32_t y) const {
     return {(x0 + x) * cell_m, (y0 + y) * cell_m, wrap_angle(yaw0_rad + angle * yaw_step_rad)};
   }
-  std::size_t tiles() const {
-    return static_cast<std::size_t>(tiles_x) * static_cast<std::size_t>(tiles_y);
-  }
+  std::int64_t poses() const { return std::int64_t{angles} * tiles_x * tiles_y * kTile * kTile; }
 };
 
-// The largest of the 64 counts.
-int largest(const Counters& counters) {
-  std::uint64_t among = ~std::uint64_t{0};
-  int value = 0;
-  for (std::size_t p = kPlanes; p-- > 0;) {
-    if ((among & counters.planes[p]) == 0) continue;
-    among &= counters.planes[p];
-    value |= 1 << p;
-  }
-  return value;
-}
-
-int count_of(const Counters& counters, int bit) {
-  int value = 0;
-  for (std::size_t p = 0; p < kPlanes; ++p)
-    value |= static_cast<int>(counters.planes[p] >> bit & 1) << p;
-  return value;
-}
-
-// The points turned to one of the lattice's angles, as places in the map.
-class TurnedScan {
- public:
-  TurnedScan(const WindowMap& map, const Lattice& lattice, const MatchPoints& scan,
-             std::int32_t angle)
-      : map_(map), lattice_(lattice) {
-    const double yaw = lattice.yaw0_rad + angle * lattice.yaw_step_rad;
-    const double c = std::cos(yaw), s = std::sin(yaw);
-    places_.reserve(scan.points.size() + kTile);
-    for (const auto& p : scan.points) {
-      const Voxel cell =
-          cell_at(Eigen::Vector3d(c * p.x() - s * p.y(), s * p.x() + c * p.y(), p.z() / 2.0),
-                  1.0 / lattice.cell_m);
-      if (cell.z < map.lowest_layer() || cell.z >= map.lowest_layer() + map.layers()) continue;
-      places_.push_back(map.place(cell.x + lattice.x0, cell.y + lattice.y0, cell.z));
+// The tiles of one angle, by rows of tiles: visit(tile_x, tile_y, counters).
+template <class Visit>
+void visit_tiles(const WindowCount& count, const Lattice& lattice, std::int32_t angle,
+                 const Visit& visit) {
+  const auto places =
+      count.places(lattice.yaw0_rad + angle * lattice.yaw_step_rad, lattice.x0, lattice.y0);
+  for (std::int32_t y = 0; y < lattice.tiles_y; y += count.down()) {
+    for (std::int32_t x = 0; x < lattice.tiles_x; x += count.across()) {
+      const WindowCount::Group group = count.count(places, x, y);
+      auto tile = group.begin();
+      for (std::int32_t ty = y; ty < y + count.down(); ++ty)
+        for (std::int32_t tx = x; tx < x + count.across(); ++tx, ++tile)
+          if (tx < lattice.tiles_x && ty < lattice.tiles_y) visit(tx, ty, *tile);
     }
   }
-
-  Counters count(std::int32_t tile_x, std::int32_t tile_y) const {
-    const std::int64_t shift = map_.place(tile_x * kTile, tile_y * kTile, 0) - map_.place(0, 0, 0);
-    Counters counters;
-    std::size_t i = 0;
-    std::uint64_t words[8];
-    for (; i + 8 <= places_.size(); i += 8) {
-      for (std::size_t k = 0; k < 8; ++k) words[k] = map_.tile(places_[i + k] + shift);
-      counters.add8(words);
-    }
-    for (std::size_t k = 0; k < 8; ++k)
-      words[k] = i + k < places_.size() ? map_.tile(places_[i + k] + shift) : 0;
-    counters.add8(words);
-    return counters;
-  }
-
- private:
-  const WindowMap& map_;
-  const Lattice& lattice_;
-  std::vector<std::int64_t> places_;
-};
+}
 
 struct CountedPose {
   int count;
@@ -116,27 +68,18 @@ struct CountedPose {
   auto rank() const { return std::tuple(-count, angle, y, x); }
 };
 
-// All poses of the tiles that hold one of at least `least`, best first.
-std::vector<CountedPose> poses_above(const WindowMap& map, const Lattice& lattice,
-                                     const MatchPoints& scan, std::span<const int> best_of_tiles,
-                                     int least) {
+// All poses with at least `least`, best first. `best`: of each angle.
+std::vector<CountedPose> poses_above(const WindowCount& count, const Lattice& lattice,
+                                     const std::vector<int>& best, int least) {
   std::vector<CountedPose> poses;
   for (std::int32_t angle = 0; angle < lattice.angles; ++angle) {
-    const auto tiles =
-        best_of_tiles.subspan(static_cast<std::size_t>(angle) * lattice.tiles(), lattice.tiles());
-    if (*std::max_element(tiles.begin(), tiles.end()) < least) continue;
-    const TurnedScan turned(map, lattice, scan, angle);
-    for (std::size_t t = 0; t < tiles.size(); ++t) {
-      if (tiles[t] < least) continue;
-      const auto tx = static_cast<std::int32_t>(t) % lattice.tiles_x,
-                 ty = static_cast<std::int32_t>(t) / lattice.tiles_x;
-      const Counters counters = turned.count(tx, ty);
-      for (int bit = 0; bit < 64; ++bit) {
-        const int count = count_of(counters, bit);
-        if (count >= least)
-          poses.push_back({count, angle, tx * kTile + bit / kTile, ty * kTile + bit % kTile});
-      }
-    }
+    if (best[static_cast<std::size_t>(angle)] < least) continue;
+    visit_tiles(count, lattice, angle, [&](auto tx, auto ty, const WindowCounters& counters) {
+      for_each_lane(lanes_from(counters, least), [&](int lane) {
+        poses.push_back({count_of(counters, lane), angle, tx * kTile + lane / kTile,
+                         ty * kTile + lane % kTile});
+      });
+    });
   }
   std::sort(poses.begin(), poses.end(),
             [](const auto& a, const auto& b) { return a.rank() < b.rank(); });
@@ -153,25 +96,26 @@ CellRectangle needed_ground(double cell_m, double radius_m, const PoseWindow& wi
 }
 
 SearchResult search_window(const WindowMap& map, double cell_m, const MatchPoints& points,
-                           const PoseWindow& window, const SearchConfig& config) {
+                           const PoseWindow& window, const SearchConfig& config,
+                           Instructions instructions) {
   SearchResult result;
   if (points.points.empty() || map.layers() == 0) return result;
   const Lattice lattice(cell_m, points.radius_m, window);
-  std::vector<int> best_of_tiles(static_cast<std::size_t>(lattice.angles) * lattice.tiles());
+  const WindowCount count(map, cell_m, points, instructions);
+  std::vector<int> best_of_angles(static_cast<std::size_t>(lattice.angles));
   tbb::parallel_for(std::int32_t{0}, lattice.angles, [&](std::int32_t angle) {
-    const TurnedScan turned(map, lattice, points, angle);
-    int* best = best_of_tiles.data() + static_cast<std::size_t>(angle) * lattice.tiles();
-    for (std::int32_t ty = 0; ty < lattice.tiles_y; ++ty) {
-      for (std::int32_t tx = 0; tx < lattice.tiles_x; ++tx) *best++ = largest(turned.count(tx, ty));
-    }
+    int& best = best_of_angles[static_cast<std::size_t>(angle)];
+    visit_tiles(count, lattice, angle, [&](auto, auto, const WindowCounters& counters) {
+      best = std::max(best, largest(counters));
+    });
   });
-  const int best = *std::max_element(best_of_tiles.begin(), best_of_tiles.end());
-  result.poses_examined = static_cast<std::int64_t>(best_of_tiles.size()) * kTile * kTile;
+  const int best = *std::max_element(best_of_angles.begin(), best_of_angles.end());
+  result.poses_examined = lattice.poses();
   result.lattice_poses = static_cast<double>(result.poses_examined);
   result.bound = best;
   if (best == 0) return result;
   const int least = std::max(1, static_cast<int>(std::ceil(config.mode_ratio * best)));
-  for (const CountedPose& p : poses_above(map, lattice, points, best_of_tiles, least)) {
+  for (const CountedPose& p : poses_above(count, lattice, best_of_angles, least)) {
     if (result.modes.size() == config.max_modes) break;
     const Pose2 pose = lattice.pose(p.angle, p.x, p.y);
     const bool known =

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "matching/coarse_sweep.h"
 #include "matching/match_points.h"
 #include "matching/pose_window.h"
 #include "matching/search_result.h"
@@ -9,9 +10,10 @@ namespace voxlist {
 
 /// Counts the overlap of every pose of a window's lattice: translations by a cell, angles by a cell
 /// at the farthest point's range. So the best is the best; the same for any number of threads.
-/// `map` must hold needed_ground().
+/// `map` must hold needed_ground(). At most kMostSearchPoints points.
 SearchResult search_window(const WindowMap& map, double cell_m, const MatchPoints& points,
-                           const PoseWindow& window, const SearchConfig& config);
+                           const PoseWindow& window, const SearchConfig& config,
+                           Instructions instructions = best_instructions());
 
 /// Where the points can come to lie at the window's poses.
 CellRectangle needed_ground(double cell_m, double radius_m, const PoseWindow& window);

@@ -21,12 +21,18 @@ void expect_equal(const WindowMap& grown, const WindowMap& fresh) {
   }
   const std::int32_t end_z = fresh.lowest_layer() + fresh.layers();
   for (std::int32_t z = fresh.lowest_layer(); z < end_z; ++z) {
-    const bool held = z >= grown.lowest_layer() && z < grown.lowest_layer() + grown.layers();
+    const bool known = z >= grown.lowest_layer() && z < grown.lowest_layer() + grown.layers();
     for (std::int32_t y = kGround.low_y; y + WindowMap::kTile <= kGround.end_y; ++y)
       for (std::int32_t x = kGround.low_x; x + WindowMap::kTile <= kGround.end_x; ++x)
-        ASSERT_EQ(held ? grown.tile(grown.place(x, y, z)) : 0, fresh.tile(fresh.place(x, y, z)))
+        ASSERT_EQ(known ? grown.tile(grown.place(x, y, z)) : 0, fresh.tile(fresh.place(x, y, z)))
             << x << ' ' << y << ' ' << z;
   }
+}
+
+WindowMap holding(const VoxelMap& map, const CellRectangle& ground) {
+  WindowMap window(map);
+  window.hold(ground);
+  return window;
 }
 
 TEST(WindowMap, GrowsToWhatItWouldBeAnew) {
@@ -45,19 +51,41 @@ TEST(WindowMap, GrowsToWhatItWouldBeAnew) {
     return blocks;
   };
   grow(500, 40);
-  WindowMap window(map, kGround);
-  for (int step = 0; step < 10; ++step) {
-    ASSERT_TRUE(window.add(map, grow(100, 56)));
-    expect_equal(window, WindowMap(map, kGround));
+  WindowMap window = holding(map, kGround);
+  // The last ones are higher than there was room for.
+  for (const std::int32_t height : {56, 56, 40, 56, 40, 200}) {
+    window.map_grew(grow(100, height));
+    window.hold(kGround);
+    expect_equal(window, holding(map, kGround));
   }
-  EXPECT_FALSE(window.add(map, grow(500, 200)));
+}
+
+TEST(WindowMap, HoldsOneGroundAfterAnotherAsIfItWereTheFirst) {
+  std::mt19937 random(2);
+  VoxelMap map;
+  for (int i = 0; i < 20'000; ++i) {
+    const auto between = [&](int low, int high) {
+      return low + static_cast<std::int32_t>(random() % static_cast<unsigned>(high - low));
+    };
+    map.insert({between(-2000, 300), between(-300, 300), between(0, 60)});
+  }
+  WindowMap window(map);
+  // Near by, overlapping, far away and back.
+  for (const std::int32_t x : {0, 100, -400, 40, 0}) {
+    CellRectangle ground = kGround;
+    ground.low_x += x;
+    ground.end_x += x;
+    window.hold(ground);
+    window.hold(kGround);
+    expect_equal(window, holding(map, kGround));
+  }
 }
 
 TEST(WindowMap, CountsTheSameCellsWhateverElseItHolds) {
   const VoxelMap map = synthetic_room(6.0, 5.0, {2.5, 2.0, 0.7}, 10, 2).map;
   const CellRectangle part{0, 0, 32, 64};
-  const WindowMap::Count few = WindowMap(map, part).count(part),
-                         of_many = WindowMap(map, {-200, -200, 200, 200}).count(part);
+  const WindowMap::Count few = holding(map, part).count(part),
+                         of_many = holding(map, {-200, -200, 200, 200}).count(part);
   EXPECT_EQ(few.cells, of_many.cells);
   EXPECT_EQ(few.occupied, of_many.occupied);
   EXPECT_GT(few.occupied, 0);

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "instruction_sets.h"
 #include "matching/matcher.h"
 #include "synthetic_room.h"
 
@@ -43,9 +44,11 @@ VoxelMap coarse_map(const VoxelMap& map) {
 }
 
 SearchResult search_in(const VoxelMap& map, const MatchPoints& scan, const PoseWindow& window,
-                       const SearchConfig& config = {}) {
-  const WindowMap ready(map, needed_ground(kCell_m, scan.radius_m, window));
-  return search_window(ready, kCell_m, scan, window, config);
+                       const SearchConfig& config = {},
+                       Instructions instructions = best_instructions()) {
+  WindowMap ready(map);
+  ready.hold(needed_ground(kCell_m, scan.radius_m, window));
+  return search_window(ready, kCell_m, scan, window, config, instructions);
 }
 
 TEST(WindowSearch, BestOverlapEqualsBruteForceOverTheWindow) {
@@ -76,22 +79,43 @@ TEST(WindowSearch, BestOverlapEqualsBruteForceOverTheWindow) {
   }
 }
 
+void expect_equal(const SearchResult& a, const SearchResult& b) {
+  ASSERT_GE(a.modes.size(), 1u);
+  ASSERT_EQ(a.modes.size(), b.modes.size());
+  for (std::size_t i = 0; i < a.modes.size(); ++i) {
+    EXPECT_EQ(a.modes[i].pose, b.modes[i].pose);
+    EXPECT_EQ(a.modes[i].overlap, b.modes[i].overlap);
+  }
+  EXPECT_EQ(a.poses_examined, b.poses_examined);
+}
+
+TEST(WindowSearch, GivesTheSameWithAnyInstructions) {
+  const auto room = synthetic_room(6.0, 5.0, {2.5, 2.0, 0.7}, 3000, 8);
+  // Numbers of points and tiles that do not fill the widest words.
+  for (const std::size_t points : {1, 7, 8, 150, 403}) {
+    const MatchPoints scan = some_of(choose_match_points(room.scan, {}), points);
+    for (const double half_m : {0.1, 0.4, 0.8, 1.7}) {
+      const PoseWindow window{{2.4, 2.1, 0.5}, half_m, 0.7 * half_m, 0.4};
+      const auto run = [&](Instructions instructions) {
+        return search_in(room.map, scan, window, {.mode_ratio = 0.7}, instructions);
+      };
+      const SearchResult portable = run(Instructions::kPortable);
+      for (const Instructions instructions : instruction_sets())
+        expect_equal(portable, run(instructions));
+    }
+  }
+}
+
 TEST(WindowSearch, GivesTheSameForAnyNumberOfThreads) {
   const auto room = synthetic_room(6.0, 5.0, {2.5, 2.0, 0.7}, 3000, 4);
-  const MatchPoints scan = choose_match_points(room.scan, {});
+  const MatchPoints scan = some_of(choose_match_points(room.scan, {}), 1000);
   const PoseWindow window{{2.0, 2.0, 0.0}, 1.2, 1.2, 3.2};
   const SearchConfig config{.mode_ratio = 0.6};
   const auto run = [&](std::size_t threads) {
     const tbb::global_control most(tbb::global_control::max_allowed_parallelism, threads);
     return search_in(room.map, scan, window, config);
   };
-  const SearchResult one = run(1), four = run(4);
-  ASSERT_GE(one.modes.size(), 1u);
-  ASSERT_EQ(one.modes.size(), four.modes.size());
-  for (std::size_t i = 0; i < one.modes.size(); ++i) {
-    EXPECT_EQ(one.modes[i].pose, four.modes[i].pose);
-    EXPECT_EQ(one.modes[i].overlap, four.modes[i].overlap);
-  }
+  expect_equal(run(1), run(4));
 }
 
 TEST(WindowSearch, FindsNothingInAnEmptyMapOrForAnEmptyScan) {
