@@ -3,6 +3,7 @@
 // calls nothing from elsewhere: a shared inline function that one of them compiled could end up in
 // the portable code.
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -24,15 +25,16 @@ struct SweepJob {
 
 namespace {
 
+// The bits from one on: from its byte and from the next one. Where both hold a bit, they agree.
 template <class Word>
 Word load_bits(const std::uint64_t* words, std::int64_t bit) {
+  static_assert(std::endian::native == std::endian::little);
+  const std::byte* from = reinterpret_cast<const std::byte*>(words) + (bit >> 3);
   Word low, high;
-  const std::uint64_t* from = words + (bit >> 6);
   std::memcpy(&low, from, sizeof low);
   std::memcpy(&high, from + 1, sizeof high);
-  const auto shift = static_cast<std::uint64_t>(bit & 63);
-  // Twice, because a shift by 64 has no meaning.
-  return (low >> shift) | ((high << 1) << (63 - shift));
+  const auto shift = static_cast<std::uint64_t>(bit & 7);
+  return (low >> shift) | (high << (8 - shift));
 }
 
 template <class Word>

@@ -1,7 +1,6 @@
 #include "matching/global_matcher.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "matching/map_density.h"
 #include "matching/match_modes.h"
@@ -74,7 +73,7 @@ double GlobalMatcher::reach_m(std::span<const Eigen::Vector3f> points) const {
   constexpr double kMost = 0.9, kShortest_m = 12.0;
   double reach_m = kShortest_m;
   const auto within = [&](const Eigen::Vector3f& p) {
-    return std::hypot(double(p.x()), double(p.y())) <= reach_m;
+    return p.head<2>().cast<double>().squaredNorm() <= reach_m * reach_m;
   };
   const double enough = kMost * static_cast<double>(points.size());
   while (reach_m < config_.max_range_m &&

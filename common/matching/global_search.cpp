@@ -209,7 +209,7 @@ class Modes {
 // Whether a search can count the point: false for what is not finite, too.
 bool within_reach(const CoarseMap& map, const Eigen::Vector3f& p) {
   return in_lattice(p, kFinestResolution_m) &&
-         std::hypot(double(p.x()), double(p.y())) <= map.reach_m();
+         p.head<2>().cast<double>().squaredNorm() <= map.reach_m() * map.reach_m();
 }
 
 // One point of each cube: walls count by their area. Whoever stands before the scanner fills half
