@@ -1,6 +1,7 @@
 #include "matching/surfel_fit.h"
 
 #include <Eigen/Eigenvalues>
+#include <array>
 #include <cmath>
 
 #include "matching/fast_cell.h"
@@ -99,26 +100,35 @@ Split split(const Plane& plane, std::span<const Voxel> voxels, double resolution
   return result;
 }
 
-// Looks voxels up that lie near each other: mostly in the block of the one before.
+// Looks voxels up that lie near each other: mostly in a block that was asked for before. Of blocks
+// whose coordinates are even and odd alike, the last one is remembered.
 class NearbyLookUp {
  public:
   explicit NearbyLookUp(const VoxelMap& map) : map_(map), per_m_(1.0 / map.resolution_m()) {}
 
   bool contains(const Eigen::Vector3d& p) {
     const Voxel v = cell_at(p, per_m_), at = block_of(v);
-    if (!known_ || at != at_) block_ = map_.find_block(at);
-    known_ = true;
-    at_ = at;
-    return block_ &&
-           ((*block_)[static_cast<std::size_t>(v.z & 7)] >> ((v.x & 7) + 8 * (v.y & 7)) & 1) != 0;
+    Known& known = known_[static_cast<std::size_t>((at.x & 1) | (at.y & 1) << 1 | (at.z & 1) << 2)];
+    if (!known.block || known.at != at) known = {at, find(at)};
+    return ((*known.block)[static_cast<std::size_t>(v.z & 7)] >> ((v.x & 7) + 8 * (v.y & 7)) & 1) !=
+           0;
   }
 
  private:
+  struct Known {
+    Voxel at;
+    const VoxelBlock* block = nullptr;
+  };
+
+  const VoxelBlock* find(const Voxel& at) const {
+    static constexpr VoxelBlock kNothing{};
+    const VoxelBlock* block = map_.find_block(at);
+    return block ? block : &kNothing;
+  }
+
   const VoxelMap& map_;
   const double per_m_;
-  bool known_ = false;
-  Voxel at_;
-  const VoxelBlock* block_ = nullptr;
+  std::array<Known, 8> known_;
 };
 
 // How far rays passed on the way from a point on a surface, in steps, before something else is met:

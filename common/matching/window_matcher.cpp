@@ -11,10 +11,8 @@ namespace {
 // Points that are counted: more tell poses no better apart, the lattice is too coarse for that.
 constexpr std::size_t kCountedPoints = 400;
 
-// A first refinement leaves a millimetre or two to a second one, whose few last steps at a wrong
-// place lead nowhere.
+// A first refinement leaves a millimetre or two to a second one.
 constexpr RefineConfig kRough{.converged_m = 1e-3};
-constexpr RefineConfig kFine{.max_iterations = 6};
 // Modes that fit so much worse than the best are left as the first refinement has them.
 constexpr double kContends = 0.08;
 
@@ -60,7 +58,7 @@ Match WindowMatcher::match(const Cloud& cloud, const PoseWindow& window) {
                                  [&](const MatchMode& mode) { return mode.fit < least; });
   std::vector<MatchMode> others(rest, match.modes.end());
   match.modes.erase(rest, match.modes.end());
-  match.modes = refined(surfels_, scan, match.modes, kFine);
+  match.modes = refined(surfels_, scan, match.modes);
   std::copy_if(others.begin(), others.end(), std::back_inserter(match.modes),
                [&](const MatchMode& mode) { return !holds(match.modes, mode.pose); });
   by_fit(match.modes);
