@@ -14,7 +14,7 @@ constexpr std::size_t kCountedPoints = 400;
 // A first refinement leaves a millimetre or two to a second one.
 constexpr RefineConfig kRough{.converged_m = 1e-3};
 // Modes that fit so much worse than the best are left as the first refinement has them.
-constexpr double kContends = 0.08;
+constexpr double kContends = 0.05;
 
 void by_fit(std::vector<MatchMode>& modes) {
   std::stable_sort(modes.begin(), modes.end(),
