@@ -26,7 +26,7 @@ Instructions best_instructions() {
 NodeCounts coarse_sweep(const CoarseMap& map, std::vector<std::int64_t> bits,
                         Instructions instructions) {
   static_assert(kSweepPlanes == kCountPlanes);
-  bits.resize((bits.size() + 7) / 8 * 8, map.free_bit());
+  bits.resize((bits.size() + kSweptAtOnce - 1) / kSweptAtOnce * kSweptAtOnce, map.free_bit());
   const std::size_t vector_words = words_of(instructions);
   const auto nodes = static_cast<std::size_t>((map.size_y() - 1) * map.row_bits() + map.size_x());
   NodeCounts counts;

@@ -14,12 +14,15 @@ namespace voxlist {
 
 inline constexpr std::size_t kSweepPlanes = 10;
 
+/// Bits that a sweep takes at once.
+inline constexpr std::size_t kSweptAtOnce = 16;
+
 /// One sweep as plain numbers: counter i counts the marked ones among the map's bits at `bits` + i.
 struct SweepJob {
   const std::uint64_t* map;
   std::size_t words;  ///< of counters, a multiple of the vector's
   const std::int64_t* bits;
-  std::size_t size;    ///< of bits, a multiple of 8
+  std::size_t size;    ///< of bits, a multiple of kSweptAtOnce
   std::uint64_t* out;  ///< planes one after the other, `words` each
 };
 
@@ -43,10 +46,11 @@ void sweep(const SweepJob& job) {
   for (std::size_t word = 0; word < job.words; word += kWords) {
     const auto at = static_cast<std::int64_t>(64 * word);
     BitCounters<Word, kSweepPlanes> counters;
-    for (std::size_t i = 0; i < job.size; i += 8) {
-      Word w[8];
-      for (std::size_t k = 0; k < 8; ++k) w[k] = load_bits<Word>(job.map, job.bits[i + k] + at);
-      counters.add8(w);
+    for (std::size_t i = 0; i < job.size; i += kSweptAtOnce) {
+      counters.add16([&](std::size_t eight, Word* w) {
+        const std::int64_t* bits = job.bits + i + 8 * eight;
+        for (std::size_t k = 0; k < 8; ++k) w[k] = load_bits<Word>(job.map, bits[k] + at);
+      });
     }
     for (std::size_t p = 0; p < kSweepPlanes; ++p)
       std::memcpy(job.out + p * job.words + word, &counters.planes[p], sizeof(Word));

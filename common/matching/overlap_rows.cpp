@@ -15,9 +15,9 @@ void coarse_sweep_avx512(const SweepJob& job);
 namespace {
 
 constexpr std::size_t kVectorWords = 8;  // of the widest
-constexpr std::size_t kAtOnce = 8;       // cells that the kernel takes
 constexpr std::size_t kSumPlanes = 16;   // of counts
-constexpr std::size_t kMostCells = ((std::size_t{1} << kSweepPlanes) - 1) / kAtOnce * kAtOnce;
+constexpr std::size_t kMostCells =
+    ((std::size_t{1} << kSweepPlanes) - 1) / kSweptAtOnce * kSweptAtOnce;
 
 bool within(const Voxel& v, const Voxel& low, const Voxel& high) {
   return v.x >= low.x && v.x <= high.x && v.y >= low.y && v.y <= high.y && v.z >= low.z &&
@@ -112,7 +112,7 @@ void overlap_rows(const RowMap& map, std::span<const Voxel> scan, const Translat
   std::vector<std::int64_t> bits;
   for (const Voxel& v : scan)
     bits.push_back(map.bit({v.x + block.first.x, v.y + block.first.y, v.z + block.first.z}));
-  bits.resize((bits.size() + kAtOnce - 1) / kAtOnce * kAtOnce, map.free_bit());
+  bits.resize((bits.size() + kSweptAtOnce - 1) / kSweptAtOnce * kSweptAtOnce, map.free_bit());
 
   const auto columns = static_cast<std::size_t>(block.columns);
   constexpr std::size_t kVectorBits = 64 * kVectorWords;
