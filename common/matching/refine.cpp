@@ -92,12 +92,18 @@ void tell_fit(const std::vector<Held<kDof>>& held, std::size_t points, double sc
   if (inliers > 0) result.residual_m = std::sqrt(squares / inliers);
 }
 
+// One deviation for all shifts, and one for all turns.
+template <int kDof>
+Step<kDof> deviations(double shift_m, double turn_rad) {
+  Step<kDof> all = Step<kDof>::Constant(turn_rad);
+  all.template head<kShifts<kDof>>().setConstant(shift_m);
+  return all;
+}
+
 // A step that is worth a metre of each coordinate: the start's own uncertainty.
 template <int kDof>
 Step<kDof> start_deviations(const RefineConfig& config) {
-  Step<kDof> deviations = Step<kDof>::Constant(config.start_sigma_rad);
-  deviations.template head<kShifts<kDof>>().setConstant(config.start_sigma_m);
-  return deviations;
+  return deviations<kDof>(config.start_sigma_m, config.start_sigma_rad);
 }
 
 // What the points of one surfel say together.
@@ -131,8 +137,9 @@ std::vector<OfSurfel<kDof>> by_surfel(const std::vector<Held<kDof>>& held) {
   return surfels;
 }
 
-// Points of one surfel share its error, so many of them tell little more than a few: each surfel
-// counts with the variance of its mean, both parts of which are read off the residuals.
+// How well the map's surfaces hold the pose, as if they stood right where the map has them. Points
+// of one surfel share its error, so many of them tell little more than a few: each surfel counts
+// with the variance of its mean, both parts of which are read off the residuals.
 template <int kDof>
 Square<kDof> covariance_of(const std::vector<Held<kDof>>& held, const RefineConfig& config) {
   const auto surfels = by_surfel(held);
@@ -205,6 +212,8 @@ Pose3 refine_pose(const SurfelMap& surfels, const RayPoints& scan, const Pose3& 
   Step<kDof> back = -result.covariance * start_information.cwiseProduct(moved);
   back.template tail<kTurn>().setZero();
   move(back, pose);
+  const auto of_map = deviations<kDof>(config.map_sigma_m, config.map_sigma_rad);
+  result.covariance.diagonal() += of_map.cwiseAbs2();
   tell_fit(held, scan.points.size(), config.scale_m, result);
   return pose;
 }

@@ -72,10 +72,21 @@ std::vector<Pose2> map_poses(const TestFloor& floor) {
   return poses;
 }
 
+// Where the map believes that its scans were taken.
+std::vector<Pose2> believed(std::vector<Pose2> poses, const TestFloorConfig& config) {
+  Random random(static_cast<std::uint64_t>(config.wing.seed), 78);
+  for (Pose2& pose : poses) {
+    pose.x_m += config.misplaced_m * random.normal();
+    pose.y_m += config.misplaced_m * random.normal();
+    pose.yaw_rad += config.misplaced_rad * random.normal();
+  }
+  return poses;
+}
+
 // All threads scan; one adds the scans, in the order of the poses.
 void fill_map(TestFloor& floor) {
   const World world(floor.building);
-  const std::vector<Pose2> poses = map_poses(floor);
+  const std::vector<Pose2> poses = map_poses(floor), places = believed(poses, floor.config);
   const auto scan = [&](std::size_t i) {
     return floor.config.map_of_spheres ? scan_sphere(world, poses[i], {}, i + 1)
                                        : scan_in(world, poses[i], i + 1);
@@ -90,7 +101,7 @@ void fill_map(TestFloor& floor) {
                                           }) &
           tbb::make_filter<std::size_t, Cloud>(tbb::filter_mode::parallel, scan) &
           tbb::make_filter<Cloud, void>(tbb::filter_mode::serial_in_order, [&](const Cloud& cloud) {
-            add_scan(cloud, to_pose3(poses[added++]), kReach_m, floor.map);
+            add_scan(cloud, to_pose3(places[added++]), kReach_m, floor.map);
           }));
 }
 
@@ -121,6 +132,13 @@ TestFloorConfig hotel_floor(int seed) {
   TestFloorConfig config = identical_floor(seed);
   config.name = "hotel, seed " + std::to_string(seed);
   config.wing.objects = 2;
+  return config;
+}
+
+TestFloorConfig misplaced(TestFloorConfig config) {
+  config.name += ", scans misplaced";
+  config.misplaced_m = 0.005;
+  config.misplaced_rad = 0.001;
   return config;
 }
 

@@ -21,6 +21,9 @@ struct TestFloorConfig {
   int wings = 1;
   double map_scan_spacing_m = 1.0;  ///< one map scan for each square of this edge
   bool map_of_spheres = false;      ///< map scans by a laser that sees all round, to 30 m
+  /// Standard deviations of the errors of the poses that map scans are added at, each coordinate's:
+  /// 0 maps at true poses.
+  double misplaced_m = 0.0, misplaced_rad = 0.0;
 };
 
 /// 60 x 40 m: three wings of 60 x 13.3 m. Seeds are the building's.
@@ -41,7 +44,7 @@ TestFloorConfig hotel_floor(int seed);
 /// The same without the objects: nothing tells one room from another.
 TestFloorConfig identical_floor(int seed);
 
-/// A simulated floor with a map made at true poses, for placing queries in.
+/// A simulated floor with its map, for placing queries in.
 struct TestFloor {
   std::string name;
   TestFloorConfig config;
@@ -49,6 +52,9 @@ struct TestFloor {
   Eigen::Vector2d low, high;  ///< where the robot may be
   OccupancyMap map;
 };
+
+/// The same floor mapped as a robot would: each map scan is misplaced a little, by itself.
+TestFloorConfig misplaced(TestFloorConfig config);
 
 /// Builds the floor and its map: a scan in each square, where there is room for the robot. The same
 /// bits for any number of threads.
