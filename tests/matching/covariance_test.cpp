@@ -79,7 +79,7 @@ TEST(Covariance, TellsTheErrorsOfThreeHundredScans) {
       below += value < 7.815;
     }
   }
-  EXPECT_GT(sum / scans, 0.5);  // such maps are better than a robot's: errors are smaller than told
+  EXPECT_GT(sum / scans, 0.7);
   EXPECT_LT(sum / scans, 4.5);
   EXPECT_GT(below, 0.9 * scans);
 }
