@@ -6,13 +6,14 @@
 namespace voxlist {
 namespace {
 
-// Fitted by tests/bench/fit_confidence.py on single scans of five kinds of buildings.
-// Places are compared by (what is left unexplained + kSlack) ^ -kPlacePower: where one place
-// explains nearly all, a hundredth less counts more than where all leave much to explain.
-constexpr double kPlacePower = 18.0, kSlack = 0.02;
-constexpr double kFoundBias = -24.4, kFoundSupport = 26.9, kFoundMargin = 35.2;
-// A rival that is farther behind than this says no more than none.
-constexpr double kFarBehind = 0.08;
+// Fitted by tests/bench/fit_confidence.py on single scans of several kinds of buildings. Places are
+// compared by powers of what they leave unexplained: where one explains nearly all, a hundredth
+// less counts more than where all leave much.
+constexpr double kPlacePower = 27.0, kNearSlack = 0.05;
+constexpr double kFoundBias = -11.5, kFoundSupport = 4.6, kFoundRival = 6.9;
+constexpr double kEvenSlack = 0.02;
+
+double log_unexplained(double support, double slack) { return std::log(1.0 - support + slack); }
 
 }  // namespace
 
@@ -22,10 +23,11 @@ Odds& Odds::operator+=(const Odds& other) {
   return *this;
 }
 
-Odds odds_of(double support, double rival, const ScanWeight& weight) {
-  const double margin = std::min(support - rival, kFarBehind);
-  return {-weight.place * kPlacePower * std::log(1.0 - support + kSlack),
-          weight.found * (kFoundBias + kFoundSupport * support + kFoundMargin * margin)};
+Odds odds_of(const PlaceSupport& support, double rival, const ScanWeight& weight) {
+  const double here = log_unexplained(support.even, kEvenSlack);
+  const double ahead = std::max(0.0, log_unexplained(rival, kEvenSlack) - here);
+  return {-weight.place * kPlacePower * log_unexplained(support.near, kNearSlack),
+          weight.found * (kFoundBias - kFoundSupport * here + kFoundRival * ahead)};
 }
 
 std::vector<double> probabilities(std::span<const Odds> places) {

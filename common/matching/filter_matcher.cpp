@@ -26,6 +26,8 @@ class ParticleFilterMatcher : public Matcher {
       match.poses_examined += static_cast<std::int64_t>(level.particles);
     if (found.particles.empty()) return match;
     match.complete = !found.truncated;
+    // Taken for granted: a filter cannot tell what it has lost.
+    match.unseen = match.complete ? 0.88 : 1.0;
     const auto& last = found.levels.back();
     const double voxels =
         static_cast<double>(last.weighing.look_ups) / static_cast<double>(last.particles);

@@ -21,14 +21,13 @@ GlobalMatcher::GlobalMatcher(const OccupancyMap& map, const SurfelMap& surfels,
                              const MatcherConfig& config)
     : map_(map), surfels_(surfels), config_(config) {}
 
-Match GlobalMatcher::match(const Cloud& cloud) {
+Match GlobalMatcher::match(const Cloud& cloud, double mode_ratio) {
   const GlobalMap& map = map_for(reach_m(cloud.points));
   const auto scan =
       map.choose_points(cloud.points, static_cast<std::size_t>(config_.search_points));
   if (scan.size() < kFewestMatchPoints) return {};
   SearchConfig config{.max_nodes = config_.max_nodes};
-  // The true pose is among these, be it the first or not.
-  config.mode_ratio = 0.88;
+  config.mode_ratio = mode_ratio;
   config.max_modes = kModes;
   config.mode_distance_m = 0.25;
   config.mode_turn_rad = 0.1;
@@ -36,6 +35,7 @@ Match GlobalMatcher::match(const Cloud& cloud) {
   Match match;
   match.certified = found.certified;
   match.complete = found.complete;
+  match.unseen = found.complete ? mode_ratio : 1.0;
   match.poses_examined = found.poses_examined;
   if (found.modes.empty()) return match;
   for (OverlapMode& mode : found.modes) mode.pose = middle_of_peak(map.tolerant(), scan, mode.pose);

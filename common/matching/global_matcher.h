@@ -17,12 +17,20 @@ class GlobalMatcher {
  public:
   GlobalMatcher(const OccupancyMap& map, const SurfelMap& surfels, const MatcherConfig& config);
 
-  Match match(const Cloud& scan);
+  Match match(const Cloud& scan) { return match(scan, kModeRatio); }
+
+  /// With modes that overlap less.
+  Match match_rivals(const Cloud& scan) { return match(scan, kRivalRatio); }
 
   /// The next match makes the map ready again.
   void map_changed();
 
  private:
+  // Of the best overlap: the true pose has as much, be it the first or not; and what another
+  // building hardly leaves to the second best place.
+  static constexpr double kModeRatio = 0.88, kRivalRatio = 0.78;
+
+  Match match(const Cloud& scan, double mode_ratio);
   double reach_m(std::span<const Eigen::Vector3f> points) const;
   const GlobalMap& map_for(double reach_m);
 

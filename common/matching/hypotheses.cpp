@@ -22,15 +22,15 @@ bool same_place(const Pose2& a, const Pose2& b) {
   return distance_m(a, b) < kSamePlace_m && turn_rad(a, b) < kSamePlace_rad;
 }
 
-// The best support of another place.
-double rival_of(const PoseMode& candidate, const std::vector<PoseMode>& all) {
-  double best = 0.0;
+}  // namespace
+
+double rival_support(const PoseMode& candidate, const std::vector<PoseMode>& all, double unseen) {
+  double best = unseen * candidate.even_support;
   for (const PoseMode& other : all)
-    if (!same_place(other.T_map_base, candidate.T_map_base)) best = std::max(best, other.support);
+    if (!same_place(other.T_map_base, candidate.T_map_base))
+      best = std::max(best, other.even_support);
   return best;
 }
-
-}  // namespace
 
 void Hypotheses::clear() { *this = {}; }
 
@@ -52,23 +52,27 @@ Odds Hypotheses::past(const Pose2& pose) const {
   return found == places_.end() ? unlisted_ : found->odds;
 }
 
-void Hypotheses::weigh(const std::vector<PoseMode>& candidates) {
+void Hypotheses::weigh(const std::vector<PoseMode>& candidates, double unseen) {
   if (empty()) clear();
   const double share = std::min(1.0, moved_m_ / kNextDistance_m);
   const ScanWeight weight =
       empty() ? ScanWeight{} : ScanWeight{share * kNext.place, share * kNext.found};
   moved_m_ = 0.0;
   std::vector<Place> now;
-  double worst = 1.0, best = 0.0;
+  PlaceSupport worst{1.0, 1.0}, best;
   for (const PoseMode& candidate : candidates) {
+    const PlaceSupport supported{candidate.support, candidate.even_support};
     Place place{candidate, past(candidate.T_map_base)};
-    place.odds += odds_of(candidate.support, rival_of(candidate, candidates), weight);
+    place.odds += odds_of(supported, rival_support(candidate, candidates, unseen), weight);
     now.push_back(place);
-    worst = std::min(worst, candidate.support);
-    best = std::max(best, candidate.support);
+    worst = {std::min(worst.near, supported.near), std::min(worst.even, supported.even)};
+    best = {std::max(best.near, supported.near), std::max(best.even, supported.even)};
   }
-  // At best as good as the worst that was listed.
-  if (!candidates.empty()) unlisted_ += odds_of(worst, best, weight);
+  // At best as good as the worst that was listed, and as what was not looked for.
+  if (!candidates.empty())
+    unlisted_ += odds_of(
+        {std::min(worst.near, unseen * best.near), std::min(worst.even, unseen * best.even)},
+        best.even, weight);
   std::stable_sort(now.begin(), now.end(),
                    [](const Place& a, const Place& b) { return a.odds.place > b.odds.place; });
   places_.clear();

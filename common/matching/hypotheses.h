@@ -7,6 +7,10 @@
 
 namespace voxlist {
 
+/// The best even support that another place than the candidate's has, or, if it is no candidate,
+/// may have: the share `unseen` of the candidate's.
+double rival_support(const PoseMode& candidate, const std::vector<PoseMode>& all, double unseen);
+
 /// Where the robot may be, as long as one scan alone cannot tell: each place keeps what the scans
 /// so far said for it. Places move with the robot; "none of them" is always one more possibility.
 class Hypotheses {
@@ -23,7 +27,8 @@ class Hypotheses {
 
   /// Takes what a scan says (the support) of each candidate: places of before, found again about
   /// where they had moved to, and new ones. Places that no candidate is near are given up.
-  void weigh(const std::vector<PoseMode>& candidates);
+  /// `unseen`: a place that is no candidate may have this share of a candidate's support.
+  void weigh(const std::vector<PoseMode>& candidates, double unseen);
 
   /// Candidates with their probabilities, the most probable first; what is missing to 1 is for none
   /// of them.

@@ -28,8 +28,11 @@ struct PoseMode {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   /// Matched points whose cell is occupied in the tolerant map, as a share, 0..1.
   double overlap = 0.0;
-  /// How well map and scan agree there, at most 1 (support); 0 while tracking.
+  /// How well map and scan agree there, at most 1 (see support() in match_modes.h): by rays close
+  /// together, and by few that are spread evenly over the surfaces that the scan sees. 0 while
+  /// tracking.
   double support = 0.0;
+  double even_support = 0.0;
   /// That this mode is right, 0..1; all modes' together are less than 1: none of them may be.
   double probability = 0.0;
 };
@@ -43,6 +46,9 @@ struct Localisation {
   /// log10 of the probability of the overlap by chance (paper, section IV), over all poses of the
   /// lattice.
   double significance_log10 = 0.0;
+  /// Places that are not listed may have this share of the first mode's support; 1: who knows.
+  /// After a search of the whole map.
+  double unseen = 1.0;
   /// Probability that the first mode is right, 0..1.
   double confidence = 0.0;
   /// No pose of the searched lattice overlaps more than the best one found.

@@ -88,7 +88,7 @@ Localisation Localiser::localise(const Cloud& cloud, const std::optional<Pose2>&
   } else {
     if (!search_) search_ = std::make_unique<LostSearch>(config_.matcher, limits());
     result = search_->add(cloud, T_odom_base, matcher(), evidence());
-    if (result.tracking()) support = result.modes.front().support;
+    if (result.tracking()) support = result.modes.front().even_support;
   }
   if (result.tracking()) {
     track_ =
@@ -107,7 +107,7 @@ Localisation Localiser::origin(const Cloud& cloud) {
   result.utime_us = cloud.utime_us;
   if (cloud.points.size() < kFewestMatchPoints) return result;
   result.state = LocalisationState::kTracking;
-  result.modes.push_back({Pose2{}, Eigen::Matrix3d::Zero(), 0.0, 0.0, 1.0});
+  result.modes.push_back({Pose2{}, Eigen::Matrix3d::Zero(), 0.0, 0.0, 0.0, 1.0});
   result.confidence = 1.0;
   result.certified = true;
   return result;

@@ -9,17 +9,20 @@ namespace voxlist {
 namespace {
 
 // What counts as sure, and when one of the modes is probably right.
-constexpr double kSure = 0.992, kLikely = 0.2;
+constexpr double kSure = 0.996, kLikely = 0.2;
+// A place whose rivals were not seen is looked at again, unless it is as sure as that.
+constexpr double kPlain = 0.99999;
 
-// Many rays close together: places may be alike but for a small thing.
-constexpr std::size_t kRays = 3000;
-constexpr double kSpacing_m = 0.05;
+// Places may be alike but for a small thing, that rays close together see; and walls far away count
+// as much as near ones where rays are spread evenly.
+constexpr std::size_t kMostRays = 3000;
+constexpr double kNear_m = 0.05, kEven_m = 0.2;
 
 // How far a place may be off after a motion.
 constexpr double kOff_m = 0.3, kOff_rad = 0.12;
 
 PoseMode pose_mode(const MatchMode& mode) {
-  return {mode.pose, mode.covariance, mode.overlap, 0.0, 0.0};
+  return {mode.pose, mode.covariance, mode.overlap, 0.0, 0.0, 0.0};
 }
 
 bool lists(const std::vector<PoseMode>& modes, const Pose2& pose) {
@@ -33,6 +36,48 @@ PoseMode found_again(Matcher& matcher, const Cloud& cloud, const PoseMode& expec
   const Match match =
       matcher.match(cloud, PoseWindow{expected.T_map_base, kOff_m, kOff_m, kOff_rad});
   return match.modes.empty() ? expected : pose_mode(match.modes.front());
+}
+
+struct Rays {
+  explicit Rays(const Cloud& cloud)
+      : near(choose_evidence_rays(cloud, kMostRays, kNear_m)),
+        even(choose_evidence_rays(cloud, kMostRays, kEven_m)) {}
+
+  std::vector<EvidenceRay> near, even;
+};
+
+void weigh(const EvidenceMap& evidence, const Rays& rays, std::vector<PoseMode>& modes) {
+  for (PoseMode& mode : modes) {
+    mode.support = support(evidence.at(mode.T_map_base, rays.near));
+    mode.even_support = support(evidence.at(mode.T_map_base, rays.even));
+  }
+}
+
+// Neither plainly right, nor is a rival listed that comes nearer than one that is not may come. A
+// search that was ended early would not do better with more to look for.
+bool wants_rivals(const Localisation& found) {
+  if (found.modes.empty() || found.unseen >= 1.0) return false;
+  const PoseMode& best =
+      *std::max_element(found.modes.begin(), found.modes.end(),
+                        [](const auto& a, const auto& b) { return a.support < b.support; });
+  const double unseen = found.unseen * best.even_support;
+  const Odds odds = odds_of({best.support, best.even_support}, unseen, {});
+  return rival_support(best, found.modes, 0.0) < unseen &&
+         probabilities({&odds, 1}).front() < kPlain;
+}
+
+Localisation search(const Cloud& cloud, Matcher& matcher, const EvidenceMap& evidence,
+                    const Rays& rays) {
+  Localisation found = from_match(cloud, matcher.match(cloud, std::nullopt));
+  weigh(evidence, rays, found.modes);
+  if (wants_rivals(found)) {
+    const double unseen = found.unseen;
+    found = from_match(cloud, matcher.match_rivals(cloud));
+    found.unseen = std::min(found.unseen, unseen);
+    weigh(evidence, rays, found.modes);
+  }
+  found.global = true;
+  return found;
 }
 
 LocalisationState state_of(const std::vector<PoseMode>& modes) {
@@ -50,6 +95,7 @@ Localisation from_match(const Cloud& cloud, const Match& match) {
   result.utime_us = cloud.utime_us;
   for (const MatchMode& mode : match.modes) result.modes.push_back(pose_mode(mode));
   result.certified = match.certified;
+  result.unseen = match.unseen;
   result.poses_examined = match.poses_examined;
   result.significance_log10 = match.significance_log10;
   return result;
@@ -57,23 +103,23 @@ Localisation from_match(const Cloud& cloud, const Match& match) {
 
 Localisation LostSearch::add(const Cloud& cloud, const std::optional<Pose2>& T_odom_base,
                              Matcher& matcher, const EvidenceMap& evidence) {
-  Localisation result = from_match(cloud, matcher.match(cloud, std::nullopt));
-  result.global = true;
-  const auto rays = choose_evidence_rays(cloud, kRays, kSpacing_m);
+  const Rays rays(cloud);
+  Localisation result = search(cloud, matcher, evidence, rays);
   // Nearly blind: the places wait for a better scan.
-  if (rays.size() < kFewestMatchPoints) return result;
+  if (rays.near.size() < kFewestMatchPoints) return result;
   if (!hypotheses_.empty()) {
     if (const auto motion = motion_to(cloud, T_odom_base))
       hypotheses_.move(*motion);
     else
       hypotheses_.clear();
   }
-  std::vector<PoseMode> modes = result.modes;
+  std::vector<PoseMode> again;
   for (const PoseMode& expected : hypotheses_.places())
     if (!lists(result.modes, expected.T_map_base))
-      modes.push_back(found_again(matcher, cloud, expected));
-  for (PoseMode& mode : modes) mode.support = support(evidence.at(mode.T_map_base, rays));
-  hypotheses_.weigh(modes);
+      again.push_back(found_again(matcher, cloud, expected));
+  weigh(evidence, rays, again);
+  result.modes.insert(result.modes.end(), again.begin(), again.end());
+  hypotheses_.weigh(result.modes, result.unseen);
   last_ = cloud;
   T_odom_last_ = T_odom_base;
   result.modes = hypotheses_.modes();

@@ -18,6 +18,8 @@ class SearchMatcher : public Matcher {
     return window ? window_.match(scan, *window) : global_.match(scan);
   }
 
+  Match match_rivals(const Cloud& scan) override { return global_.match_rivals(scan); }
+
   void map_grew(const ChangedBlocks& grown) override {
     surfels_.map_changed();
     global_.map_changed();

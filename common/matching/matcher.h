@@ -71,6 +71,8 @@ struct Match {
   bool certified = false;
   /// No mode of nearly as much overlap was left out for want of time.
   bool complete = false;
+  /// What is not listed overlaps at most this share of what the best does; 1: who knows.
+  double unseen = 1.0;
   std::int64_t poses_examined = 0;
   /// log10 significance of the best mode (paper, section IV) over all poses of the lattice.
   double significance_log10 = 0.0;
@@ -83,6 +85,10 @@ class Matcher {
 
   /// The modes of the pose of a scan (in base) within the window, or in the whole map without one.
   virtual Match match(const Cloud& scan, const std::optional<PoseWindow>& window) = 0;
+
+  /// The same in the whole map, slower, with modes that overlap a good deal less: what else there
+  /// is where one stands alone.
+  virtual Match match_rivals(const Cloud& scan) { return match(scan, std::nullopt); }
 
   /// These blocks of the map have gained voxels or passed cells, and none have lost any. Matches
   /// are the same as with a new matcher.

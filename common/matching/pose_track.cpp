@@ -90,8 +90,10 @@ Match PoseTrack::match(Matcher& matcher, const Cloud& cloud,
 PoseTrack::Judgement PoseTrack::judge(const Cloud& cloud, const std::optional<Pose2>& T_odom_base,
                                       const MatchMode& mode, const Evidence& evidence) const {
   const double supported = support(evidence);
-  const double unlikely =
-      surprise(mode.pose, predict(cloud.utime_us, T_odom_base), T_odom_base.has_value());
+  // Only what wheels measured speaks against a motion, not that the last step was another.
+  const double unlikely = T_odom_base_ && T_odom_base
+                              ? surprise(mode.pose, predict(cloud.utime_us, T_odom_base), true)
+                              : 0.0;
   const double worth = supported - std::min(unlikely, kMostSurprise);
   if (mode.overlap < kLeastOverlap || mode.fit < kLeastFitShare * fit_)
     return {Verdict::kLost, worth};

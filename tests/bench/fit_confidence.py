@@ -3,12 +3,13 @@
 
 Usage: bench_confidence 40 0 1 5 scans.csv; fit_confidence.py scans.csv...
 
-Two logistic models by maximum likelihood, each damped a little towards 0:
-- which of the listed places is right, where one is: in proportion to
-  (1 - support + kSlack) ^ -kPlacePower;
-- whether the best place is right at all, rather than none that is listed:
-  kFoundBias + kFoundSupport * support + kFoundMargin * margin, margin = how far the best other place is
-  behind, at most kFarBehind.
+Two logistic models by maximum likelihood, each damped a little towards 0, in logarithms of what places
+leave unexplained, u = log(1 - support + kNearSlack) or kEvenSlack:
+- which of the listed places is right, where one is, by rays close together: in proportion to
+  exp(-kPlacePower * u);
+- whether a listed place is right at all, rather than none, by rays spread evenly:
+  kFoundBias - kFoundSupport * u + kFoundRival * (u of the best other place - u), where the best other place
+  may be one that is not listed: it has at most the share "unseen" of the support.
 Scans are split by seed to show how the fit carries over to buildings that it has not seen.
 """
 import csv
@@ -16,19 +17,20 @@ import math
 import sys
 from collections import defaultdict
 
-FAR_BEHIND = 0.08
-SLACK = 0.02
-DAMPING = 1e-4
+NEAR_SLACK = 0.05
+EVEN_SLACK = 0.02
+DAMPING = 1e-3
 
 
 def read(files):
-    """(kind, seed, query) -> [(support, right)], best first."""
+    """(kind, seed, query) -> [(support, right, even support, unseen)], best first."""
     scans = defaultdict(list)
     for name in files:
         with open(name) as file:
             for row in csv.DictReader(file):
                 key = row["kind"], int(row["seed"]), int(row["query"])
-                scans[key].append((float(row["support"]), row["right"] == "1"))
+                scans[key].append((float(row["support"]), row["right"] == "1", float(row["even_support"]),
+                                   float(row["unseen"])))
     return {key: sorted(modes, reverse=True) for key, modes in scans.items()}
 
 
@@ -36,14 +38,20 @@ def sigmoid(x):
     return 1.0 / (1.0 + math.exp(-max(-700.0, min(700.0, x))))
 
 
+def log_unexplained(support, slack):
+    return math.log(1.0 - support + slack)
+
+
 def features(modes):
-    rival = modes[1][0] if len(modes) > 1 else 0.0
-    return [1.0, modes[0][0], min(modes[0][0] - rival, FAR_BEHIND)]
+    _, _, support, unseen = modes[0]
+    rival = max([unseen * support] + [other for _, _, other, _ in modes[1:]])
+    here = log_unexplained(support, EVEN_SLACK)
+    return [1.0, -here, max(0.0, log_unexplained(rival, EVEN_SLACK) - here)]
 
 
 def shares(modes, power):
-    least = 1.0 - modes[0][0] + SLACK
-    weights = [((1.0 - score + SLACK) / least) ** -power for score, _ in modes]
+    least = log_unexplained(modes[0][0], NEAR_SLACK)
+    weights = [math.exp(-power * (log_unexplained(support, NEAR_SLACK) - least)) for support, *_ in modes]
     return [w / sum(weights) for w in weights]
 
 
@@ -68,7 +76,7 @@ def fit_found(scans):
         hessian = [[DAMPING * (i == j) for j in range(3)] for i in range(3)]
         for modes in scans.values():
             x = features(modes)
-            right = any(r for _, r in modes)
+            right = any(r for _, r, *_ in modes)
             p = sigmoid(sum(a * b for a, b in zip(w, x)))
             for i in range(3):
                 gradient[i] += (right - p) * x[i]
@@ -83,11 +91,11 @@ def fit_found(scans):
 
 def fit_power(scans):
     """The power of most likelihood, by golden section."""
-    listed = [modes for modes in scans.values() if any(r for _, r in modes)]
+    listed = [modes for modes in scans.values() if any(r for _, r, *_ in modes)]
 
     def loss(power):
         return sum(-math.log(max(1e-300, p)) for modes in listed
-                   for p, (_, r) in zip(shares(modes, power), modes) if r)
+                   for p, (_, r, *_) in zip(shares(modes, power), modes) if r)
 
     low, high = 1.0, 100.0
     for _ in range(60):
@@ -99,7 +107,7 @@ def fit_power(scans):
     return (low + high) / 2.0
 
 
-def report(scans, power, w, limit=0.99):
+def report(scans, power, w, limit=0.996):
     kinds = defaultdict(lambda: [0, 0, 0, 0.0])
     for (kind, _, _), modes in scans.items():
         found = sigmoid(sum(a * b for a, b in zip(w, features(modes))))
@@ -122,7 +130,7 @@ def main():
     def run(name, train, test):
         power, w = fit_power(train), fit_found(train)
         print(f"{name}: kPlacePower {power:.1f}, kFoundBias {w[0]:.1f}, kFoundSupport {w[1]:.1f}, "
-              f"kFoundMargin {w[2]:.1f}")
+              f"kFoundRival {w[2]:.1f}")
         report(test, power, w)
 
     even = {k: v for k, v in scans.items() if k[1] % 2 == 0}
