@@ -22,7 +22,7 @@ constexpr double kReach_m = 0.08;
 constexpr std::size_t kRays = 600;
 
 // A pose that far away, and so much better supported, makes a doubtful one lost.
-constexpr double kElsewhere_m = 0.5, kBetter = 0.03;
+constexpr double kElsewhere_m = 0.2, kBetter = 0.03;
 
 }  // namespace
 
