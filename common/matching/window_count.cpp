@@ -16,9 +16,10 @@ WindowCount::WindowCount(const WindowMap& map, double cell_m, const MatchPoints&
                          Instructions instructions)
     : map_(map), cells_per_m_(1.0 / cell_m), instructions_(instructions) {
   static_assert(kWindowPlanes == kCountPlanes);
-  if (instructions != Instructions::kPortable) down_ = 2;
-  if (instructions != Instructions::kPortable)
+  if (instructions != Instructions::kPortable) {
+    down_ = 2;
     across_ = instructions == Instructions::kAvx512 ? 4 : 2;
+  }
   for (const auto& p : points.points) {
     const std::int32_t z =
         cell_at(Eigen::Vector3d(0.0, 0.0, p.z() / 2.0), cells_per_m_).z - map.lowest_layer();

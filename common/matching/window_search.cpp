@@ -12,6 +12,7 @@ namespace voxlist {
 namespace {
 
 constexpr std::int32_t kTile = WindowMap::kTile;
+
 std::int32_t cells_in(double length_m, double cell_m) {
   return static_cast<std::int32_t>(std::ceil(length_m / cell_m));
 }

@@ -18,6 +18,15 @@ TEST(Confidence, GrowsWithSupportAndWithTheDistanceOfTheNextBestPlace) {
   EXPECT_GT(of_single(0.9, 0.7), of_single(0.9, 0.85));
 }
 
+TEST(Confidence, TellsPlacesApartByNearRaysAndWhetherAnyIsRightByEvenOnes) {
+  const Odds place = odds_of({0.9, 0.95}, 0.8, {}), nearer = odds_of({0.92, 0.95}, 0.8, {}),
+             evener = odds_of({0.9, 0.97}, 0.8, {});
+  EXPECT_GT(nearer.place, place.place);
+  EXPECT_EQ(nearer.found, place.found);
+  EXPECT_EQ(evener.place, place.place);
+  EXPECT_GT(evener.found, place.found);
+}
+
 TEST(Confidence, IsSharedEvenlyByPlacesThatLookAlike) {
   const std::vector<Odds> alike(20, odds_of({0.99, 0.99}, 0.99, {}));
   for (const double p : probabilities(alike)) {
