@@ -1,8 +1,12 @@
 # The three kinds of targets. Each takes every .cpp of its folder, so adding a file is adding a file.
 
-# voxlist_library(NAME DEPENDS...): target voxlist_NAME from common/NAME.
+# The tree below common/ is what others include as voxlist/...; in the build folder a link gives it that name.
+file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/include)
+file(CREATE_LINK ${PROJECT_SOURCE_DIR}/common ${PROJECT_BINARY_DIR}/include/voxlist SYMBOLIC)
+
+# voxlist_library(NAME DEPENDS...): target voxlist_NAME, alias voxlist::NAME, from common/NAME and its sub-folders.
 function(voxlist_library name)
-  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp)
   set(kind STATIC)
   set(scope PUBLIC)
   if(NOT sources) # headers alone
@@ -10,19 +14,20 @@ function(voxlist_library name)
     set(scope INTERFACE)
   endif()
   add_library(voxlist_${name} ${kind} ${sources})
-  target_include_directories(voxlist_${name} ${scope} ${CMAKE_SOURCE_DIR}/common)
+  add_library(voxlist::${name} ALIAS voxlist_${name})
+  target_include_directories(voxlist_${name} ${scope} $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include>)
   target_link_libraries(voxlist_${name} ${scope} ${ARGN})
 endfunction()
 
 # voxlist_program(NAME DEPENDS...): build/bin/NAME from services/NAME. Everything but main.cpp also
 # becomes the library voxlist_service_NAME, so that tests run a service in their own process.
 function(voxlist_program name)
-  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp)
   list(FILTER sources EXCLUDE REGEX "/main\\.cpp$")
   set(library voxlist_service_${name})
   if(sources)
     add_library(${library} STATIC ${sources})
-    target_include_directories(${library} PUBLIC ${CMAKE_SOURCE_DIR})
+    target_include_directories(${library} PUBLIC ${PROJECT_SOURCE_DIR})
     target_link_libraries(${library} PUBLIC ${ARGN})
   else()
     add_library(${library} INTERFACE)
@@ -35,14 +40,14 @@ endfunction()
 
 # voxlist_test(FOLDER DEPENDS...): program test_FOLDER from tests/FOLDER, each TEST its own ctest case.
 function(voxlist_test folder)
-  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*.cpp)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*.cpp)
   if(NOT sources)
     return()
   endif()
   add_executable(test_${folder} ${sources})
   target_link_libraries(test_${folder} PRIVATE ${ARGN} GTest::gmock GTest::gtest_main)
-  target_include_directories(test_${folder} PRIVATE ${CMAKE_SOURCE_DIR} ${CMAKE_SOURCE_DIR}/tests)
+  target_include_directories(test_${folder} PRIVATE ${PROJECT_SOURCE_DIR})
   target_compile_definitions(test_${folder} PRIVATE
-    VOXLIST_SOURCE_DIR="${CMAKE_SOURCE_DIR}" VOXLIST_BIN_DIR="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}")
+    VOXLIST_SOURCE_DIR="${PROJECT_SOURCE_DIR}" VOXLIST_BIN_DIR="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}")
   gtest_discover_tests(test_${folder} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
 endfunction()

@@ -1,4 +1,4 @@
-#include "bus/bus.h"
+#include "voxlist/bus/bus.h"
 
 #include <algorithm>
 #include <cctype>
@@ -6,9 +6,9 @@
 #include <optional>
 #include <stdexcept>
 
-#include "bus/transport.h"
+#include "voxlist/bus/transport.h"
 
-namespace voxlist {
+namespace voxlist::bus {
 namespace {
 
 // liblcm drops the newest when its queue is full. kEvery: five seconds of 100 Hz odometry behind a
@@ -163,4 +163,4 @@ const std::string& Bus::first_handler_error() const { return impl_->first_handle
 
 std::int64_t Bus::arrival_utime_us() const { return impl_->arrival_utime_us; }
 
-}  // namespace voxlist
+}  // namespace voxlist::bus

@@ -8,11 +8,11 @@
 #include <type_traits>
 #include <vector>
 
-#include "bus/channels.h"
-#include "bus/counters.h"
-#include "bus/wire.h"
+#include "voxlist/bus/channels.h"
+#include "voxlist/bus/counters.h"
+#include "voxlist/bus/wire.h"
 
-namespace voxlist {
+namespace voxlist::bus {
 
 /// Where a Bus connects.
 struct BusOptions {
@@ -111,4 +111,4 @@ class Bus {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace voxlist
+}  // namespace voxlist::bus

@@ -1,8 +1,6 @@
 #pragma once
 
 namespace voxlist {
-
-// The generated types; include <voxlist/pose_t.hpp> and the like where a message is made or read.
 class health_t;
 class keyframe_t;
 class localisation_t;
@@ -14,6 +12,11 @@ class obstacles_t;
 class planar_lidar_t;
 class pointcloud_t;
 class pose_t;
+}  // namespace voxlist
+
+namespace voxlist::bus {
+
+// The generated types; include <voxlist/pose_t.hpp> and the like where a message is made or read.
 
 /// A channel's name, tied to the one type that travels on it.
 template <class M>
@@ -78,4 +81,4 @@ inline constexpr Channel<obstacles_t> kObstacles{"OBSTACLES"};
 /// From every service to whoever watches.
 inline constexpr Channel<health_t> kHealth{"HEALTH"};
 
-}  // namespace voxlist
+}  // namespace voxlist::bus

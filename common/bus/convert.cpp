@@ -1,4 +1,4 @@
-#include "bus/convert.h"
+#include "voxlist/bus/convert.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 #include <voxlist/pointcloud_t.hpp>
 #include <voxlist/pose_t.hpp>
 
-namespace voxlist {
+namespace voxlist::bus {
 namespace {
 
 using Rows = std::vector<std::vector<float>>;
@@ -173,4 +173,4 @@ keyframe_t to_message(const PosedCloud& keyframe) {
   return message;
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::bus

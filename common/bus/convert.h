@@ -4,12 +4,12 @@
 #include <optional>
 #include <string>
 
-#include "bus/channels.h"
-#include "geometry/cloud.h"
-#include "scanner/laser_line.h"
-#include "scanner/mirror_state.h"
+#include "voxlist/bus/channels.h"
+#include "voxlist/geometry/cloud.h"
+#include "voxlist/geometry/laser_line.h"
+#include "voxlist/geometry/mirror_state.h"
 
-namespace voxlist {
+namespace voxlist::bus {
 
 /// Points and poses farther out than this are no measurement. It also keeps voxel coordinates far
 /// from overflow.
@@ -81,4 +81,4 @@ keyframe_t to_message(const PosedCloud& keyframe);
 /// absurdly late.
 bool is_sane_utime(std::int64_t utime_us);
 
-}  // namespace voxlist
+}  // namespace voxlist::bus

@@ -1,4 +1,4 @@
-#include "bus/event_log.h"
+#include "voxlist/bus/event_log.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -10,7 +10,7 @@
 #include <cstring>
 #include <stdexcept>
 
-namespace voxlist {
+namespace voxlist::bus {
 namespace {
 
 constexpr std::array<std::uint8_t, 4> kSync = {0xED, 0xA1, 0xDA, 0x01};
@@ -173,4 +173,4 @@ void EventLogWriter::refuse(const std::string& channel, Fault fault) const {
                            " is wrong: " + fault_name(fault));
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::bus

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "bus/channels.h"
-#include "bus/wire.h"
+#include "voxlist/bus/channels.h"
+#include "voxlist/bus/wire.h"
 
-namespace voxlist {
+namespace voxlist::bus {
 
 /// One recorded message.
 struct Event {
@@ -95,4 +95,4 @@ class EventLogWriter {
   std::int64_t events_ = 0;
 };
 
-}  // namespace voxlist
+}  // namespace voxlist::bus

@@ -1,4 +1,4 @@
-#include "bus/health.h"
+#include "voxlist/bus/health.h"
 
 #include <unistd.h>
 
@@ -6,7 +6,7 @@
 #include <utility>
 #include <voxlist/health_t.hpp>
 
-namespace voxlist {
+namespace voxlist::bus {
 namespace {
 
 constexpr std::int64_t kPeriod_us = 1'000'000;
@@ -58,4 +58,4 @@ std::optional<health_t> Health::due(std::int64_t now_us, const Counters& more) {
   return message;
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::bus

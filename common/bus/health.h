@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "bus/channels.h"
-#include "bus/counters.h"
+#include "voxlist/bus/channels.h"
+#include "voxlist/bus/counters.h"
 
-namespace voxlist {
+namespace voxlist::bus {
 
 /// What a service tells of itself once a second on HEALTH.
 class Health {
@@ -42,4 +42,4 @@ class Health {
   std::optional<std::int64_t> last_us_;
 };
 
-}  // namespace voxlist
+}  // namespace voxlist::bus

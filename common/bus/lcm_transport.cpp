@@ -7,10 +7,10 @@
 #include <cerrno>
 #include <stdexcept>
 
-#include "bus/bus.h"
-#include "bus/transport.h"
+#include "voxlist/bus/bus.h"
+#include "voxlist/bus/transport.h"
 
-namespace voxlist {
+namespace voxlist::bus {
 namespace {
 
 // More than one in a row can come from a race inside liblcm; this many mean that it is broken.
@@ -118,4 +118,4 @@ std::unique_ptr<Transport> open_lcm(const BusOptions& options, std::vector<std::
   return std::make_unique<LcmTransport>(with_receive_buffer(options.url, wanted));
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::bus

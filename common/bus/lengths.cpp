@@ -11,9 +11,9 @@
 #include <voxlist/pointcloud_t.hpp>
 #include <voxlist/pose_t.hpp>
 
-#include "bus/wire.h"
+#include "voxlist/bus/wire.h"
 
-namespace voxlist {
+namespace voxlist::bus {
 namespace {
 
 // Adds up what the arrays will take, and keeps the first fault.
@@ -126,4 +126,4 @@ Fault check_lengths(const pointcloud_t& message) {
 
 Fault check_lengths(const pose_t&) { return Fault::kNone; }
 
-}  // namespace voxlist
+}  // namespace voxlist::bus

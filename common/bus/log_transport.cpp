@@ -1,9 +1,9 @@
 #include <set>
 
-#include "bus/event_log.h"
-#include "bus/transport.h"
+#include "voxlist/bus/event_log.h"
+#include "voxlist/bus/transport.h"
 
-namespace voxlist {
+namespace voxlist::bus {
 namespace {
 
 class LogTransport : public Transport {
@@ -38,4 +38,4 @@ std::unique_ptr<Transport> open_log(const std::string& path) {
   return std::make_unique<LogTransport>(path);
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::bus

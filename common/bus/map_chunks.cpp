@@ -1,13 +1,13 @@
-#include "bus/map_chunks.h"
+#include "voxlist/bus/map_chunks.h"
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <tuple>
 
-#include "bus/convert.h"
+#include "voxlist/bus/convert.h"
 
-namespace voxlist {
+namespace voxlist::bus {
 namespace {
 
 // Increments that may wait behind a whole map which is still coming in, at ten clouds a second.
@@ -235,4 +235,4 @@ void MapAssembler::bound_memory() {
   }
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::bus

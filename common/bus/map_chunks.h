@@ -6,9 +6,9 @@
 #include <vector>
 #include <voxlist/map_update_t.hpp>
 
-#include "bus/counters.h"
+#include "voxlist/bus/counters.h"
 
-namespace voxlist {
+namespace voxlist::bus {
 
 /// base_version of a whole map.
 inline constexpr std::int64_t kWholeMap = -1;
@@ -112,4 +112,4 @@ class MapAssembler {
   Counters counters_;
 };
 
-}  // namespace voxlist
+}  // namespace voxlist::bus

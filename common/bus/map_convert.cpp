@@ -1,10 +1,10 @@
-#include "bus/map_convert.h"
+#include "voxlist/bus/map_convert.h"
 
 #include <bit>
 #include <vector>
 #include <voxlist/voxel_block_t.hpp>
 
-namespace voxlist {
+namespace voxlist::bus {
 namespace {
 
 voxel_block_t to_message(const Voxel& position, const VoxelBlock& block) {
@@ -87,4 +87,4 @@ AppliedChange apply(const MapChange& change, OccupancyMap& map) {
   return applied;
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::bus

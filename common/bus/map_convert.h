@@ -1,9 +1,9 @@
 #pragma once
 
-#include "bus/map_chunks.h"
-#include "voxels/occupancy_map.h"
+#include "voxlist/bus/map_chunks.h"
+#include "voxlist/voxels/occupancy_map.h"
 
-namespace voxlist {
+namespace voxlist::bus {
 
 MapResolution resolution_of(const OccupancyMap& map);
 
@@ -26,4 +26,4 @@ struct AppliedChange {
 /// Precondition: the change builds on the map, as MapAssembler sees to.
 AppliedChange apply(const MapChange& change, OccupancyMap& map);
 
-}  // namespace voxlist
+}  // namespace voxlist::bus

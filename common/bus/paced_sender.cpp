@@ -1,9 +1,9 @@
-#include "bus/paced_sender.h"
+#include "voxlist/bus/paced_sender.h"
 
 #include <algorithm>
 #include <utility>
 
-namespace voxlist {
+namespace voxlist::bus {
 namespace {
 
 // Long enough to pay for the largest message; keeps the product below from overflowing after a long
@@ -41,4 +41,4 @@ void PacedSender::clear() {
   queued_bytes_ = 0;
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::bus

@@ -5,7 +5,7 @@
 #include <deque>
 #include <functional>
 
-namespace voxlist {
+namespace voxlist::bus {
 
 /// Sends queued messages a few at a time, so that a whole map never overruns a listener's receive
 /// buffer: lcm's sender does not pace. First in, first out.
@@ -53,4 +53,4 @@ class PacedSender {
   bool has_run_ = false;
 };
 
-}  // namespace voxlist
+}  // namespace voxlist::bus

@@ -6,9 +6,9 @@
 #include <voxlist/mirror_state_t.hpp>
 #include <voxlist/planar_lidar_t.hpp>
 
-#include "bus/convert.h"
+#include "voxlist/bus/convert.h"
 
-namespace voxlist {
+namespace voxlist::bus {
 namespace {
 
 constexpr double kTurn_rad = 2.0 * std::numbers::pi;
@@ -84,4 +84,4 @@ mirror_state_t to_message(const MirrorState& state) {
   return message;
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::bus

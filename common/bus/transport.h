@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "bus/wire.h"
+#include "voxlist/bus/wire.h"
 
-namespace voxlist {
+namespace voxlist::bus {
 
 struct BusOptions;
 
@@ -50,4 +50,4 @@ std::unique_ptr<Transport> open_lcm(const BusOptions& options, std::vector<std::
 /// A recording, as fast as it is asked for. Throws std::runtime_error when it cannot be read.
 std::unique_ptr<Transport> open_log(const std::string& path);
 
-}  // namespace voxlist
+}  // namespace voxlist::bus

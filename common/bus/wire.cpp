@@ -1,8 +1,8 @@
-#include "bus/wire.h"
+#include "voxlist/bus/wire.h"
 
 #include <algorithm>
 
-namespace voxlist {
+namespace voxlist::bus {
 namespace {
 
 constexpr std::int64_t kInt8 = 1;
@@ -166,4 +166,4 @@ void walk(WireReader& in, const pointcloud_t*) {
 
 void walk(WireReader& in, const pose_t*) { in.skip(kInt64 + 16 * kDouble); }
 
-}  // namespace voxlist
+}  // namespace voxlist::bus

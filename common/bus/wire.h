@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "bus/channels.h"
+#include "voxlist/bus/channels.h"
 
-namespace voxlist {
+namespace voxlist::bus {
 
 /// The bytes of one encoded message.
 using Bytes = std::span<const std::uint8_t>;
@@ -136,4 +136,4 @@ Fault encode(const M& message, std::vector<std::uint8_t>& bytes) {
   return message.encode(bytes.data(), 0, size) == size ? Fault::kNone : Fault::kCodecFailed;
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::bus

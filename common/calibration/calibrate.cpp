@@ -1,13 +1,13 @@
-#include "calibration/calibrate.h"
+#include "voxlist/calibration/calibrate.h"
 
 #include <algorithm>
 #include <iterator>
 
-#include "calibration/preconditions.h"
-#include "calibration/steady_mirror.h"
-#include "calibration/thin_surfaces.h"
+#include "voxlist/calibration/preconditions.h"
+#include "voxlist/calibration/steady_mirror.h"
+#include "voxlist/calibration/thin_surfaces.h"
 
-namespace voxlist {
+namespace voxlist::calibration {
 namespace {
 
 CalibrationAnswer answer_of(const ThinSurfaces& surfaces, const BeamSet& set) {
@@ -25,7 +25,7 @@ CalibrationAnswer answer_of(const ThinSurfaces& surfaces, const BeamSet& set) {
 
 }  // namespace
 
-Calibration calibrate(const CalibrationInput& input, const CloudAssemblerConfig& scanner,
+Calibration calibrate(const CalibrationInput& input, const scanner::CloudAssemblerConfig& scanner,
                       const CalibrationConfig& config) {
   Calibration result;
   const ParameterVector before = parameters_of(scanner.geometry);
@@ -46,4 +46,4 @@ Calibration calibrate(const CalibrationInput& input, const CloudAssemblerConfig&
   return result;
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::calibration

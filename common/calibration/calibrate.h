@@ -6,14 +6,14 @@
 #include <string>
 #include <vector>
 
-#include "calibration/mirror_beam.h"
-#include "calibration/parameters.h"
-#include "geometry/cloud.h"
-#include "scanner/cloud_assembler_config.h"
-#include "scanner/laser_line.h"
-#include "scanner/mirror_state.h"
+#include "voxlist/calibration/mirror_beam.h"
+#include "voxlist/calibration/parameters.h"
+#include "voxlist/geometry/cloud.h"
+#include "voxlist/geometry/laser_line.h"
+#include "voxlist/geometry/mirror_state.h"
+#include "voxlist/scanner/sweep/cloud_assembler_config.h"
 
-namespace voxlist {
+namespace voxlist::calibration {
 
 /// About a minute of a static room, each in the order of time.
 struct CalibrationInput {
@@ -66,7 +66,7 @@ struct Calibration {
 /// parameters together, and again with a narrower idea of who belongs to a surface, until it
 /// settles. `scanner` is what is known so far, with its true mount: the floor (else the
 /// ceiling) is taken for level. The same input gives the same answer. Seconds.
-Calibration calibrate(const CalibrationInput& input, const CloudAssemblerConfig& scanner,
+Calibration calibrate(const CalibrationInput& input, const scanner::CloudAssemblerConfig& scanner,
                       const CalibrationConfig& config);
 
-}  // namespace voxlist
+}  // namespace voxlist::calibration

@@ -4,12 +4,12 @@
 #include <cstdint>
 #include <vector>
 
-#include "calibration/parameters.h"
-#include "scanner/cloud_assembler_config.h"
-#include "scanner/laser_line.h"
-#include "scanner/mirror_state.h"
+#include "voxlist/calibration/parameters.h"
+#include "voxlist/geometry/laser_line.h"
+#include "voxlist/geometry/mirror_state.h"
+#include "voxlist/scanner/sweep/cloud_assembler_config.h"
 
-namespace voxlist {
+namespace voxlist::calibration {
 
 /// A beam that left the mirror and met something.
 struct MirrorBeam {
@@ -23,7 +23,7 @@ struct MirrorBeam {
 /// for automatic differentiation.
 template <class T>
 Eigen::Matrix<T, 3, 1> point_scanner(const MirrorBeam& beam, const T* parameters) {
-  const MirrorModel<T> model = mirror_model(parameters);
+  const scanner::MirrorModel<T> model = mirror_model(parameters);
   const T psi = T(beam.psi_rad) - T(beam.rate_radps) * parameters[kLatency];
   const auto ray = model.reflect(psi, beam.beam_rad);
   const Eigen::Matrix<T, 3, 1> axis(T(0), T(0), model.height_m);
@@ -41,6 +41,6 @@ struct BeamSet {
 /// and evenly chooses `max_beams` of them. Lines and states in the order of time, states as of
 /// steadied().
 BeamSet gather_beams(const std::vector<LaserLine>& lines, const std::vector<MirrorState>& mirror,
-                     const CloudAssemblerConfig& scanner, std::size_t max_beams);
+                     const scanner::CloudAssemblerConfig& scanner, std::size_t max_beams);
 
-}  // namespace voxlist
+}  // namespace voxlist::calibration

@@ -4,10 +4,10 @@
 #include <array>
 #include <numbers>
 
-#include "scanner/mirror_model.h"
-#include "scanner/scanner_geometry.h"
+#include "voxlist/scanner/sweep/mirror_model.h"
+#include "voxlist/scanner/sweep/scanner_geometry.h"
 
-namespace voxlist {
+namespace voxlist::calibration {
 
 /// What calibration finds out about a scanner, in this order.
 enum Parameter {
@@ -66,8 +66,8 @@ inline constexpr std::array<ParameterInfo, kParameters> kParameterInfos{{
 
 /// The parameters as the mirror's model; all but the latency.
 template <class T>
-MirrorModel<T> mirror_model(const T* parameters) {
-  MirrorModel<T> model;
+scanner::MirrorModel<T> mirror_model(const T* parameters) {
+  scanner::MirrorModel<T> model;
   model.phase_rad = {parameters[kPhase0], parameters[kPhase1]};
   model.height_m = parameters[kHeight];
   model.offset_m = {parameters[kOffset0], parameters[kOffset1]};
@@ -77,9 +77,10 @@ MirrorModel<T> mirror_model(const T* parameters) {
 }
 
 /// A scanner's parameters.
-ParameterVector parameters_of(const ScannerGeometry& geometry);
+ParameterVector parameters_of(const scanner::ScannerGeometry& geometry);
 
 /// The same scanner with these parameters.
-ScannerGeometry with_parameters(ScannerGeometry geometry, const ParameterVector& parameters);
+scanner::ScannerGeometry with_parameters(scanner::ScannerGeometry geometry,
+                                         const ParameterVector& parameters);
 
-}  // namespace voxlist
+}  // namespace voxlist::calibration

@@ -1,9 +1,9 @@
-#include "calibration/patches.h"
+#include "voxlist/calibration/patches.h"
 
 #include <cmath>
 #include <map>
 
-namespace voxlist {
+namespace voxlist::calibration {
 namespace {
 
 constexpr double kPatch_m = 0.5;
@@ -48,4 +48,4 @@ void drop_uneven_patches(SurfaceEvidence& evidence, const SurfaceFit& fit) {
   evidence.contacts = std::move(kept);
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::calibration

@@ -2,9 +2,9 @@
 
 #include <tuple>
 
-#include "calibration/surface_fit.h"
+#include "voxlist/calibration/surface_fit.h"
 
-namespace voxlist {
+namespace voxlist::calibration {
 
 /// A plane, and a square of half a metre on it, along the axes that lie most in the plane. (Squares
 /// across it would sort the beams by their errors.)
@@ -16,4 +16,4 @@ Patch patch_of(const SurfaceEvidence& evidence, const SurfaceFit& fit, const Con
 /// thickness: a picture on the wall, the front of the next cupboard.
 void drop_uneven_patches(SurfaceEvidence& evidence, const SurfaceFit& fit);
 
-}  // namespace voxlist
+}  // namespace voxlist::calibration

@@ -1,4 +1,4 @@
-#include "calibration/planes.h"
+#include "voxlist/calibration/planes.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -7,7 +7,7 @@
 #include <map>
 #include <tuple>
 
-namespace voxlist {
+namespace voxlist::calibration {
 namespace {
 
 using Eigen::Vector3d;
@@ -175,4 +175,4 @@ std::vector<std::optional<std::size_t>> associate(std::span<const Vector3d> poin
   return result;
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::calibration

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-namespace voxlist {
+namespace voxlist::calibration {
 
 /// The points p with normal . p = distance_m. Unit normal, away from the origin.
 struct Plane {
@@ -25,4 +25,4 @@ std::vector<std::optional<std::size_t>> associate(std::span<const Eigen::Vector3
                                                   const std::vector<Plane>& planes,
                                                   double tolerance_m);
 
-}  // namespace voxlist
+}  // namespace voxlist::calibration

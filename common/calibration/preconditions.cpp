@@ -1,4 +1,4 @@
-#include "calibration/preconditions.h"
+#include "voxlist/calibration/preconditions.h"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <numbers>
 
-namespace voxlist {
+namespace voxlist::calibration {
 namespace {
 
 constexpr double kStands_m = 0.01;
@@ -38,7 +38,7 @@ std::optional<std::string> moved(const std::vector<StampedPose2>& odometry) {
 
 double share_of_side(const std::vector<MirrorBeam>& beams, const ParameterVector& parameters,
                      int side) {
-  const MirrorModel<> model = mirror_model(parameters.data());
+  const scanner::MirrorModel<> model = mirror_model(parameters.data());
   const auto is_of_side = [&](const MirrorBeam& beam) {
     return model.reflect(beam.psi_rad, beam.beam_rad).side == side;
   };
@@ -166,4 +166,4 @@ std::vector<std::string> warnings_of(const CalibrationAnswer& answer,
   return warnings;
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::calibration

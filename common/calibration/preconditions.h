@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "calibration/calibrate.h"
+#include "voxlist/calibration/calibrate.h"
 
-namespace voxlist {
+namespace voxlist::calibration {
 
 /// Why a log cannot be used at all; empty when it can.
 std::vector<std::string> unusable(const CalibrationInput& input, const BeamSet& set,
@@ -31,4 +31,4 @@ std::vector<std::string> refusals_of(const std::optional<CalibrationAnswer>& ans
 /// What is odd about an answer.
 std::vector<std::string> warnings_of(const CalibrationAnswer& answer, const ParameterVector& start);
 
-}  // namespace voxlist
+}  // namespace voxlist::calibration

@@ -1,11 +1,11 @@
-#include "calibration/side_search.h"
+#include "voxlist/calibration/side_search.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
 
-namespace voxlist {
+namespace voxlist::calibration {
 namespace {
 
 constexpr double kVoxel_m = 0.1;
@@ -43,4 +43,4 @@ double side_difference(std::span<const MirrorBeam> beams, const ParameterVector&
   return best_rad;
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::calibration

@@ -2,13 +2,13 @@
 
 #include <span>
 
-#include "calibration/mirror_beam.h"
+#include "voxlist/calibration/mirror_beam.h"
 
-namespace voxlist {
+namespace voxlist::calibration {
 
 /// How much greater phase 1 should be against phase 0 (radians), roughly, so that what the mirror's
 /// two sides see is one room: the fewest occupied voxels. Looks up to 5 deg to both sides. 0 when
 /// only one side was used.
 double side_difference(std::span<const MirrorBeam> beams, const ParameterVector& parameters);
 
-}  // namespace voxlist
+}  // namespace voxlist::calibration

@@ -1,13 +1,13 @@
-#include "calibration/steady_mirror.h"
+#include "voxlist/calibration/steady_mirror.h"
 
 #include <cmath>
 #include <cstdint>
 #include <numbers>
 #include <span>
 
-#include "geometry/pose.h"
+#include "voxlist/geometry/pose.h"
 
-namespace voxlist {
+namespace voxlist::calibration {
 namespace {
 
 constexpr std::int64_t kMaxGap_us = 500'000;
@@ -89,4 +89,4 @@ SteadyMirror steadied(const std::vector<MirrorState>& states) {
   return steadier.result();
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::calibration

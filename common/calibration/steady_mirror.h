@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "scanner/mirror_state.h"
+#include "voxlist/geometry/mirror_state.h"
 
-namespace voxlist {
+namespace voxlist::calibration {
 
 /// What MIRROR said, seen from the end.
 struct SteadyMirror {
@@ -21,4 +21,4 @@ struct SteadyMirror {
 /// left out, as are states that are not LOCKED. Without a clock states stay as they are.
 SteadyMirror steadied(const std::vector<MirrorState>& states);
 
-}  // namespace voxlist
+}  // namespace voxlist::calibration

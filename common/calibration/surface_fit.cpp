@@ -1,4 +1,4 @@
-#include "calibration/surface_fit.h"
+#include "voxlist/calibration/surface_fit.h"
 
 #include <ceres/crs_matrix.h>
 #include <ceres/solver.h>
@@ -7,10 +7,10 @@
 #include <cmath>
 #include <map>
 
-#include "calibration/patches.h"
-#include "calibration/surface_problem.h"
+#include "voxlist/calibration/patches.h"
+#include "voxlist/calibration/surface_problem.h"
 
-namespace voxlist {
+namespace voxlist::calibration {
 namespace {
 
 Eigen::VectorXd row_of(const ceres::CRSMatrix& matrix, std::size_t row) {
@@ -105,4 +105,4 @@ std::vector<double> distances(const SurfaceEvidence& evidence, const SurfaceFit&
   return result;
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::calibration

@@ -6,11 +6,11 @@
 #include <span>
 #include <vector>
 
-#include "calibration/mirror_beam.h"
-#include "calibration/parameters.h"
-#include "calibration/planes.h"
+#include "voxlist/calibration/mirror_beam.h"
+#include "voxlist/calibration/parameters.h"
+#include "voxlist/calibration/planes.h"
 
-namespace voxlist {
+namespace voxlist::calibration {
 
 /// A beam that met a plane, by their indices.
 struct Contact {
@@ -59,4 +59,4 @@ ParameterVector standard_deviations(const SurfaceEvidence& evidence, const Surfa
 /// Signed distances of the contacts from their planes, metres.
 std::vector<double> distances(const SurfaceEvidence& evidence, const SurfaceFit& fit);
 
-}  // namespace voxlist
+}  // namespace voxlist::calibration

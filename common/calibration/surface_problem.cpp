@@ -1,11 +1,11 @@
-#include "calibration/surface_problem.h"
+#include "voxlist/calibration/surface_problem.h"
 
 #include <ceres/autodiff_cost_function.h>
 #include <ceres/loss_function.h>
 #include <ceres/manifold.h>
 #include <ceres/normal_prior.h>
 
-namespace voxlist {
+namespace voxlist::calibration {
 namespace {
 
 template <class T>
@@ -103,4 +103,4 @@ void SurfaceProblem::add_expected(const SurfaceEvidence& evidence) {
       parameters_.data());
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::calibration

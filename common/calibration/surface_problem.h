@@ -2,9 +2,9 @@
 
 #include <ceres/problem.h>
 
-#include "calibration/surface_fit.h"
+#include "voxlist/calibration/surface_fit.h"
 
-namespace voxlist {
+namespace voxlist::calibration {
 
 /// Of the robust loss max((u / k)^2): residuals far beyond k standard deviations stop to pull.
 inline constexpr double kCauchyScale = 2.4;
@@ -31,4 +31,4 @@ class SurfaceProblem {
   ceres::Problem problem_;
 };
 
-}  // namespace voxlist
+}  // namespace voxlist::calibration

@@ -1,12 +1,12 @@
-#include "calibration/thin_surfaces.h"
+#include "voxlist/calibration/thin_surfaces.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "calibration/patches.h"
-#include "calibration/side_search.h"
+#include "voxlist/calibration/patches.h"
+#include "voxlist/calibration/side_search.h"
 
-namespace voxlist {
+namespace voxlist::calibration {
 namespace {
 
 constexpr double kFirstTolerance_m = 0.15;
@@ -52,7 +52,8 @@ bool settled(const ParameterVector& a, const ParameterVector& b) {
 
 }  // namespace
 
-ThinSurfaces::ThinSurfaces(const std::vector<MirrorBeam>& beams, const ScannerGeometry& start,
+ThinSurfaces::ThinSurfaces(const std::vector<MirrorBeam>& beams,
+                           const scanner::ScannerGeometry& start,
                            const std::array<bool, kParameters>& held, double level_sd_deg)
     : up_scanner_(start.T_base_laser().linear().transpose() * Eigen::Vector3d::UnitZ()),
       level_sd_rad_(level_sd_deg * kRadPerDeg),
@@ -146,4 +147,4 @@ double ThinSurfaces::spread_m() const {
   return std::max(kMinThickness_m, robust_sd(distances(evidence_, fit_)));
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::calibration

@@ -4,16 +4,16 @@
 #include <optional>
 #include <vector>
 
-#include "calibration/surface_fit.h"
-#include "scanner/scanner_geometry.h"
+#include "voxlist/calibration/surface_fit.h"
+#include "voxlist/scanner/sweep/scanner_geometry.h"
 
-namespace voxlist {
+namespace voxlist::calibration {
 
 /// One log's way from the start values to parameters that make its surfaces thin.
 class ThinSurfaces {
  public:
   /// `beams` must outlive it. Held parameters keep their values.
-  ThinSurfaces(const std::vector<MirrorBeam>& beams, const ScannerGeometry& start,
+  ThinSurfaces(const std::vector<MirrorBeam>& beams, const scanner::ScannerGeometry& start,
                const std::array<bool, kParameters>& held, double level_sd_deg);
 
   /// Finds surfaces and fits, with a narrower idea of a surface each time, until they are as thin
@@ -44,4 +44,4 @@ class ThinSurfaces {
   SurfaceFit fit_;
 };
 
-}  // namespace voxlist
+}  // namespace voxlist::calibration

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "config/settings_visitor.h"
+#include "voxlist/config/settings_visitor.h"
 
-namespace voxlist {
+namespace voxlist::config {
 
 /// One table of a settings file, tied to the struct that holds it.
 struct Section {
@@ -48,4 +48,4 @@ std::string to_toml(const std::vector<Section>& sections);
 /// The section as a Markdown table (key, value in force, range, meaning), for a README.
 std::string markdown_table(const Section& section);
 
-}  // namespace voxlist
+}  // namespace voxlist::config

@@ -1,4 +1,4 @@
-#include "config/edit.h"
+#include "voxlist/config/edit.h"
 
 #include <toml++/toml.h>
 
@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <stdexcept>
 
-namespace voxlist {
+namespace voxlist::config {
 namespace {
 
 // Lines with their ends.
@@ -99,4 +99,4 @@ std::string with_numbers(const std::string& text, const std::string& table,
   return editor.text();
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::config

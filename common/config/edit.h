@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-namespace voxlist {
+namespace voxlist::config {
 
 /// A settings file's text with some keys of `[table]` set, and everything else (comments, order,
 /// line ends) as it was: a key that is there gets its new value in its place, a new one a line
@@ -14,4 +14,4 @@ namespace voxlist {
 std::string with_numbers(const std::string& text, const std::string& table,
                          const std::vector<std::pair<std::string, std::string>>& values);
 
-}  // namespace voxlist
+}  // namespace voxlist::config

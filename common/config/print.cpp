@@ -1,8 +1,8 @@
 #include <charconv>
 
-#include "config/config.h"
+#include "voxlist/config/config.h"
 
-namespace voxlist {
+namespace voxlist::config {
 namespace {
 
 std::string toml_text(bool value) { return value ? "true" : "false"; }
@@ -110,4 +110,4 @@ std::string markdown_table(const Section& section) {
   return "| key | default | range | meaning |\n|---|---|---|---|\n" + printer.text;
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::config

@@ -5,10 +5,10 @@
 #include <stdexcept>
 #include <utility>
 
-#include "config/config.h"
-#include "config/toml_document.h"
+#include "voxlist/config/config.h"
+#include "voxlist/config/toml_document.h"
 
-namespace voxlist {
+namespace voxlist::config {
 namespace {
 
 // What a value of each type is called in a complaint, and how it is taken from a TOML node:
@@ -189,4 +189,4 @@ std::vector<std::string> read_config(const std::filesystem::path& file,
   return complaints;
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::config

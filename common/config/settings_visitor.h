@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace voxlist {
+namespace voxlist::config {
 
 /// Sees every key of a settings struct once: its name in the file, the member, what it means, and
 /// for numbers the range (both ends allowed; for vectors of every element).
@@ -32,4 +32,4 @@ class SettingsVisitor {
   virtual void operator()(const char* key, std::vector<std::string>& value, const char* doc) = 0;
 };
 
-}  // namespace voxlist
+}  // namespace voxlist::config

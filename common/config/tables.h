@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace voxlist {
+namespace voxlist::config {
 
 /// Every table that a robot's settings file (services/robot.toml) may have: the bus, and one for
 /// each service, in the order of services/README.md. A service looks only into its own, and
@@ -13,4 +13,4 @@ inline const std::vector<std::string> kTables = {
     "scan_source", "localiser", "mapper",       "octomap_export", "obstacle_detector",
 };
 
-}  // namespace voxlist
+}  // namespace voxlist::config

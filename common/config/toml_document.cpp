@@ -1,8 +1,8 @@
-#include "config/toml_document.h"
+#include "voxlist/config/toml_document.h"
 
 #include <fstream>
 
-namespace voxlist {
+namespace voxlist::config {
 namespace {
 
 std::vector<std::string> read_lines(std::istream& stream) {
@@ -63,4 +63,4 @@ TomlDocument parse_toml(const std::filesystem::path& file) {
   return document;
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::config

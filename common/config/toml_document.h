@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace voxlist {
+namespace voxlist::config {
 
 /// A parsed settings file, and what is wrong with it as TOML ("FILE:LINE: what").
 struct TomlDocument {
@@ -22,4 +22,4 @@ TomlDocument parse_toml(const std::filesystem::path& file);
 std::string complaint(const std::filesystem::path& file, toml::source_index line,
                       const std::string& what);
 
-}  // namespace voxlist
+}  // namespace voxlist::config

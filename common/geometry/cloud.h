@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "geometry/pose.h"
+#include "voxlist/geometry/pose.h"
 
 namespace voxlist {
 

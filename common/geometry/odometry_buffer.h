@@ -4,7 +4,7 @@
 #include <deque>
 #include <optional>
 
-#include "geometry/cloud.h"
+#include "voxlist/geometry/cloud.h"
 
 namespace voxlist {
 

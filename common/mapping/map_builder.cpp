@@ -1,8 +1,8 @@
-#include "mapping/map_builder.h"
+#include "voxlist/mapping/map_builder.h"
 
 #include <numbers>
 
-namespace voxlist {
+namespace voxlist::mapping {
 
 bool MapBuilder::wants(const Pose2& pose) const {
   if (keyframes_.empty()) return true;
@@ -16,4 +16,4 @@ void MapBuilder::add(Keyframe keyframe) {
   keyframes_.push_back(std::move(keyframe));
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::mapping

@@ -2,11 +2,11 @@
 
 #include <vector>
 
-#include "geometry/cloud.h"
-#include "geometry/pose.h"
-#include "voxels/occupancy_map.h"
+#include "voxlist/geometry/cloud.h"
+#include "voxlist/geometry/pose.h"
+#include "voxlist/voxels/occupancy_map.h"
 
-namespace voxlist {
+namespace voxlist::mapping {
 
 /// A cloud with its place in the map: what maps are made of.
 struct Keyframe {
@@ -57,4 +57,4 @@ class MapBuilder {
   ChangedBlocks changed_blocks_;
 };
 
-}  // namespace voxlist
+}  // namespace voxlist::mapping

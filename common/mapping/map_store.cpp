@@ -1,4 +1,4 @@
-#include "mapping/map_store.h"
+#include "voxlist/mapping/map_store.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -11,8 +11,8 @@
 #include <optional>
 #include <string_view>
 
-#include "io/atomic_file.h"
-#include "io/file.h"
+#include "voxlist/io/files/atomic_file.h"
+#include "voxlist/io/files/file.h"
 
 // The file: an 8-byte magic, the map id (int64), then records. A record: payload bytes (uint32),
 // CRC-32 of the payload (uint32), payload. The payload: utime (int64), pose (12 doubles, row-major
@@ -21,7 +21,7 @@
 static_assert(std::endian::native == std::endian::little,
               "the keyframe file is written as memory lies");
 
-namespace voxlist {
+namespace voxlist::mapping {
 namespace {
 
 constexpr std::string_view kMagic = "VOXKF001";
@@ -138,7 +138,7 @@ std::string header(std::int64_t map_id) {
 
 int open_to_append(const std::filesystem::path& path) {
   const int fd = ::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
-  if (fd < 0) throw FileError(path, system_error("cannot open"));
+  if (fd < 0) throw io::FileError(path, system_error("cannot open"));
   return fd;
 }
 
@@ -146,10 +146,10 @@ int open_to_append(const std::filesystem::path& path) {
 
 StoredMap load_map(const std::filesystem::path& folder) {
   const auto path = folder / kKeyframeFile;
-  const std::string file = read_file(path);
+  const std::string file = io::read_file(path);
   if (file.size() < kFileHeader || !file.starts_with(kMagic)) {
-    throw FileError(path,
-                    "is no keyframe file of Voxlist; give the folder that a map was saved to");
+    throw io::FileError(path,
+                        "is no keyframe file of Voxlist; give the folder that a map was saved to");
   }
   std::string_view rest = std::string_view(file).substr(kMagic.size());
   StoredMap stored;
@@ -175,10 +175,10 @@ MapStore::MapStore(const std::filesystem::path& folder, std::int64_t map_id,
     : path_(folder / kKeyframeFile) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (error) throw FileError(folder, "cannot create the map folder: " + error.message());
+  if (error) throw io::FileError(folder, "cannot create the map folder: " + error.message());
   std::string bytes = header(map_id);
   for (const Keyframe& keyframe : keyframes) bytes += encode(keyframe);
-  write_file_atomically(path_, bytes);
+  io::write_file_atomically(path_, bytes);
   fd_ = open_to_append(path_);
 }
 
@@ -194,14 +194,14 @@ void MapStore::append(const Keyframe& keyframe) {
     write_all(fd_, encode(keyframe));
   } catch (const std::exception& failure) {
     const bool restored = known && ::ftruncate(fd_, before.st_size) == 0;
-    throw FileError(path_,
-                    failure.what() + std::string(restored ? "; the keyframes before it are safe"
-                                                          : "; its last record is torn"));
+    throw io::FileError(path_,
+                        failure.what() + std::string(restored ? "; the keyframes before it are safe"
+                                                              : "; its last record is torn"));
   }
 }
 
 void MapStore::sync() {
-  if (::fsync(fd_) != 0) throw FileError(path_, system_error("cannot sync"));
+  if (::fsync(fd_) != 0) throw io::FileError(path_, system_error("cannot sync"));
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::mapping

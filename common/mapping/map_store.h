@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "mapping/map_builder.h"
+#include "voxlist/mapping/map_builder.h"
 
-namespace voxlist {
+namespace voxlist::mapping {
 
 /// Name of the keyframe file in a map folder.
 inline constexpr const char* kKeyframeFile = "keyframes.voxlist";
@@ -53,4 +53,4 @@ class MapStore {
   int fd_ = -1;
 };
 
-}  // namespace voxlist
+}  // namespace voxlist::mapping

@@ -1,10 +1,10 @@
-#include "mapping/map_views.h"
+#include "voxlist/mapping/map_views.h"
 
-#include "io/cloud_file.h"
-#include "io/map_picture.h"
-#include "io/trajectory.h"
+#include "voxlist/drawing/map_picture.h"
+#include "voxlist/io/clouds/cloud_file.h"
+#include "voxlist/io/poses/trajectory.h"
 
-namespace voxlist {
+namespace voxlist::mapping {
 
 void write_map_views(const std::filesystem::path& folder, const VoxelMap& map,
                      const std::vector<StampedPose3>& trajectory) {
@@ -15,9 +15,9 @@ void write_map_views(const std::filesystem::path& folder, const VoxelMap& map,
   std::vector<Pose2> path;
   for (const StampedPose3& pose : trajectory) path.push_back(to_pose2(pose.pose));
 
-  write_tum(folder / "trajectory.tum", trajectory);
-  write_ply(folder / "map.ply", centers, colours_by_height(centers));
-  write_png(folder / "map.png", draw_map(centers, path, map.resolution_m()));
+  io::write_tum(folder / "trajectory.tum", trajectory);
+  io::write_ply(folder / "map.ply", centers, io::colours_by_height(centers));
+  drawing::write_png(folder / "map.png", drawing::draw_map(centers, path, map.resolution_m()));
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::mapping

@@ -3,10 +3,10 @@
 #include <filesystem>
 #include <vector>
 
-#include "geometry/cloud.h"
-#include "voxels/voxel_map.h"
+#include "voxlist/geometry/cloud.h"
+#include "voxlist/voxels/voxel_map.h"
 
-namespace voxlist {
+namespace voxlist::mapping {
 
 /// Writes into a map folder what people and other programs look at, each file atomically: map.png
 /// (from above, with the path), map.ply (voxel centres, coloured by height), trajectory.tum (the
@@ -14,4 +14,4 @@ namespace voxlist {
 void write_map_views(const std::filesystem::path& folder, const VoxelMap& map,
                      const std::vector<StampedPose3>& trajectory);
 
-}  // namespace voxlist
+}  // namespace voxlist::mapping

@@ -1,4 +1,4 @@
-#include "planning/obstacles.h"
+#include "voxlist/planning/obstacles.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <numbers>
 #include <utility>
 
-namespace voxlist {
+namespace voxlist::planning {
 namespace {
 
 using CellKey = std::pair<int, int>;
@@ -77,4 +77,4 @@ ObstacleScan nearest_obstacles(const Cloud& cloud_base, const ObstacleConfig& co
   return scan;
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::planning

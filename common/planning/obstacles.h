@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "geometry/cloud.h"
+#include "voxlist/geometry/cloud.h"
 
-namespace voxlist {
+namespace voxlist::planning {
 
 /// What counts as an obstacle.
 struct ObstacleConfig {
@@ -53,4 +53,4 @@ struct ObstacleScan {
 /// things are missed until they are near enough to be hit twice.
 ObstacleScan nearest_obstacles(const Cloud& cloud_base, const ObstacleConfig& config);
 
-}  // namespace voxlist
+}  // namespace voxlist::planning

@@ -1,13 +1,13 @@
-#include "planning/octomap.h"
+#include "voxlist/planning/octomap.h"
 
 #include <octomap/OcTree.h>
 
 #include <sstream>
 #include <string>
 
-#include "io/atomic_file.h"
+#include "voxlist/io/files/atomic_file.h"
 
-namespace voxlist {
+namespace voxlist::planning {
 namespace {
 
 octomap::point3d to_octomap(const Eigen::Vector3d& p) {
@@ -84,13 +84,13 @@ std::vector<std::uint8_t> OctomapBuilder::binary() const {
 }
 
 void OctomapBuilder::write_bt(const std::filesystem::path& path) const {
-  write_file_atomically(path, to_bt(tree_->octree));
+  io::write_file_atomically(path, to_bt(tree_->octree));
 }
 
 void OctomapBuilder::write_ot(const std::filesystem::path& path) const {
   std::ostringstream out;
   tree_->octree.write(out);
-  write_file_atomically(path, out.str());
+  io::write_file_atomically(path, out.str());
 }
 
 OctomapSize OctomapBuilder::size() const {
@@ -110,4 +110,4 @@ Occupancy OctomapBuilder::at(const Eigen::Vector3d& point_map) const {
   return tree_->octree.isNodeOccupied(node) ? Occupancy::kOccupied : Occupancy::kFree;
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::planning

@@ -7,10 +7,10 @@
 #include <memory>
 #include <vector>
 
-#include "geometry/cloud.h"
-#include "geometry/pose.h"
+#include "voxlist/geometry/cloud.h"
+#include "voxlist/geometry/pose.h"
 
-namespace voxlist {
+namespace voxlist::planning {
 
 /// What an OctoMap is made with. The probabilities are OctoMap's own defaults.
 struct OctomapConfig {
@@ -76,4 +76,4 @@ class OctomapBuilder {
   std::unique_ptr<Tree> tree_;
 };
 
-}  // namespace voxlist
+}  // namespace voxlist::planning

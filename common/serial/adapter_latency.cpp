@@ -1,9 +1,9 @@
-#include "serial/adapter_latency.h"
+#include "voxlist/serial/adapter_latency.h"
 
 #include <fstream>
 #include <optional>
 
-namespace voxlist {
+namespace voxlist::serial {
 namespace {
 
 constexpr int kLatency_ms = 1;
@@ -31,4 +31,4 @@ std::string quicken_adapter(const std::filesystem::path& port, const std::filesy
          " as root (a udev rule keeps it)";
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::serial

@@ -1,10 +1,10 @@
-#include "serial/device_time.h"
+#include "voxlist/serial/device_time.h"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-namespace voxlist {
+namespace voxlist::serial {
 namespace {
 
 constexpr double kWindow_us = 20e6, kBucket_us = 1e5;
@@ -83,4 +83,4 @@ void DeviceTime::lay_line() {
   offset_us_ = p.late_us - slope_ * p.device_us;
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::serial

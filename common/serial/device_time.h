@@ -4,7 +4,7 @@
 #include <deque>
 #include <optional>
 
-namespace voxlist {
+namespace voxlist::serial {
 
 /// Brings the times of a device's own clock to the wall clock. What it sends arrives late by any
 /// amount, but never early: so the device's clock is a straight line under all arrivals of the last
@@ -37,4 +37,4 @@ class DeviceTime {
   int strange_ = 0;
 };
 
-}  // namespace voxlist
+}  // namespace voxlist::serial

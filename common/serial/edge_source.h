@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace voxlist {
+namespace voxlist::serial {
 
 /// Where the edges of a clock come from: a pin, a modem line, a microcontroller. Use it from one
 /// thread.
@@ -27,4 +27,4 @@ class EdgeSource {
   virtual std::int64_t garbage() const { return 0; }
 };
 
-}  // namespace voxlist
+}  // namespace voxlist::serial

@@ -1,10 +1,10 @@
-#include "serial/edge_text.h"
+#include "voxlist/serial/edge_text.h"
 
 #include <charconv>
 #include <optional>
 #include <utility>
 
-namespace voxlist {
+namespace voxlist::serial {
 namespace {
 
 constexpr std::size_t kMaxLine = 20;
@@ -38,4 +38,4 @@ void EdgeText::end_line(std::int64_t arrival_us, std::vector<std::int64_t>& edge
   if (!edge_us) ++garbage_;
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::serial

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "serial/device_time.h"
+#include "voxlist/serial/device_time.h"
 
-namespace voxlist {
+namespace voxlist::serial {
 
 /// Reads a microcontroller's text: one line for each edge, "<microseconds of its own clock>\n", in
 /// decimal, of 32 bits that wrap or of more. Torn lines and garbage are counted and skipped.
@@ -27,4 +27,4 @@ class EdgeText {
   std::int64_t garbage_ = 0;
 };
 
-}  // namespace voxlist
+}  // namespace voxlist::serial

@@ -1,9 +1,9 @@
-#include "serial/line_speed.h"
+#include "voxlist/serial/line_speed.h"
 
 #include <array>
 #include <utility>
 
-namespace voxlist {
+namespace voxlist::serial {
 namespace {
 
 constexpr std::array<std::pair<int, speed_t>, 14> kSpeeds{{{1200, B1200},
@@ -44,4 +44,4 @@ void make_raw(termios& settings) {
   settings.c_cc[VTIME] = 0;
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::serial

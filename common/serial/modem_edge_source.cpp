@@ -1,4 +1,4 @@
-#include "serial/modem_edge_source.h"
+#include "voxlist/serial/modem_edge_source.h"
 
 #include <fcntl.h>
 #include <linux/serial.h>
@@ -17,10 +17,10 @@
 #include <stdexcept>
 #include <thread>
 
-#include "serial/file_descriptor.h"
-#include "serial/port.h"
+#include "voxlist/serial/port.h"
+#include "voxlist/system/file_descriptor.h"
 
-namespace voxlist {
+namespace voxlist::serial {
 namespace {
 
 // Wakes the waiting thread at the end; a handler that does nothing makes its ioctl return.
@@ -127,4 +127,4 @@ ModemEdgeSource::~ModemEdgeSource() = default;
 std::vector<std::int64_t> ModemEdgeSource::read(std::int64_t) { return waiter_->read(); }
 int ModemEdgeSource::wake_fd() const { return waiter_->wake_fd(); }
 
-}  // namespace voxlist
+}  // namespace voxlist::serial

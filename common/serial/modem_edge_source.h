@@ -4,9 +4,9 @@
 #include <memory>
 #include <string>
 
-#include "serial/edge_source.h"
+#include "voxlist/serial/edge_source.h"
 
-namespace voxlist {
+namespace voxlist::serial {
 
 /// Rising edges on a modem line of a serial port: a thread waits for each in the kernel and takes
 /// the time right after. Only a real port can do that (TIOCMIWAIT): not a pseudo-terminal, and not
@@ -25,4 +25,4 @@ class ModemEdgeSource : public EdgeSource {
   std::unique_ptr<Waiter> waiter_;
 };
 
-}  // namespace voxlist
+}  // namespace voxlist::serial

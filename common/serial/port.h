@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace voxlist {
+namespace voxlist::serial {
 
 /// The device is gone, or cannot be used: what() is one line with the port's path, the system's
 /// reason, and what to do.
@@ -44,4 +44,4 @@ class Port {
   virtual std::int64_t now_us() const = 0;
 };
 
-}  // namespace voxlist
+}  // namespace voxlist::serial

@@ -1,4 +1,4 @@
-#include "serial/pseudo_terminal.h"
+#include "voxlist/serial/pseudo_terminal.h"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -9,10 +9,10 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "serial/line_speed.h"
-#include "serial/port.h"
+#include "voxlist/serial/line_speed.h"
+#include "voxlist/serial/port.h"
 
-namespace voxlist {
+namespace voxlist::serial {
 namespace {
 
 namespace fs = std::filesystem;
@@ -90,4 +90,4 @@ bool PseudoTerminal::is_open() const {
   return ::poll(&asked, 1, 0) == 0;
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::serial

@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "serial/file_descriptor.h"
+#include "voxlist/system/file_descriptor.h"
 
-namespace voxlist {
+namespace voxlist::serial {
 
 /// The device's end of a serial line that exists in this machine only: a simulator serves it, and
 /// the other end is opened by its name like any serial port. Nothing here ever waits.
@@ -47,4 +47,4 @@ class PseudoTerminal {
   std::filesystem::path other_end_;
 };
 
-}  // namespace voxlist
+}  // namespace voxlist::serial

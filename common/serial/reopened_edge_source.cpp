@@ -1,10 +1,10 @@
-#include "serial/reopened_edge_source.h"
+#include "voxlist/serial/reopened_edge_source.h"
 
 #include <algorithm>
 
-#include "serial/port.h"
+#include "voxlist/serial/port.h"
 
-namespace voxlist {
+namespace voxlist::serial {
 namespace {
 
 constexpr std::int64_t kFirstWait_us = 500'000, kLongestWait_us = 10'000'000;
@@ -32,4 +32,4 @@ void ReopenedEdgeSource::give_up(std::int64_t now_us, const char* why) {
   next_us_ = now_us + wait_us_;
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::serial

@@ -3,9 +3,9 @@
 #include <functional>
 #include <memory>
 
-#include "serial/edge_source.h"
+#include "voxlist/serial/edge_source.h"
 
-namespace voxlist {
+namespace voxlist::serial {
 
 /// A source that is opened again when its device is gone: first after half a second, then ever more
 /// seldom, every 10 s in the end. It never throws.
@@ -32,4 +32,4 @@ class ReopenedEdgeSource : public EdgeSource {
   std::int64_t next_us_ = 0, wait_us_ = 0, garbage_ = 0;
 };
 
-}  // namespace voxlist
+}  // namespace voxlist::serial

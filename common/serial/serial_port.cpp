@@ -1,4 +1,4 @@
-#include "serial/serial_port.h"
+#include "voxlist/serial/serial_port.h"
 
 #include <fcntl.h>
 #include <linux/serial.h>
@@ -13,10 +13,10 @@
 #include <cstring>
 #include <filesystem>
 
-#include "serial/adapter_latency.h"
-#include "serial/line_speed.h"
+#include "voxlist/serial/adapter_latency.h"
+#include "voxlist/serial/line_speed.h"
 
-namespace voxlist {
+namespace voxlist::serial {
 namespace {
 
 constexpr std::int64_t kWriteTimeout_us = 1'000'000;  // the system's buffer holds any request
@@ -161,4 +161,4 @@ bool SerialPort::wait(short events, std::int64_t timeout_us) const {
   return true;
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::serial

@@ -2,10 +2,10 @@
 
 #include <string>
 
-#include "serial/file_descriptor.h"
-#include "serial/port.h"
+#include "voxlist/serial/port.h"
+#include "voxlist/system/file_descriptor.h"
 
-namespace voxlist {
+namespace voxlist::serial {
 
 /// A serial line of this machine: 8N1, no flow control, for nobody else while it is open. Times are
 /// the wall clock's.
@@ -42,4 +42,4 @@ class SerialPort : public Port {
   std::string warning_;
 };
 
-}  // namespace voxlist
+}  // namespace voxlist::serial

@@ -1,4 +1,4 @@
-#include "serial/text_edge_source.h"
+#include "voxlist/serial/text_edge_source.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -9,11 +9,11 @@
 #include <cerrno>
 #include <cstring>
 
-#include "serial/adapter_latency.h"
-#include "serial/line_speed.h"
-#include "serial/port.h"
+#include "voxlist/serial/adapter_latency.h"
+#include "voxlist/serial/line_speed.h"
+#include "voxlist/serial/port.h"
 
-namespace voxlist {
+namespace voxlist::serial {
 namespace {
 
 // One call reads no more, so that a flood does not hold up its caller.
@@ -64,4 +64,4 @@ std::vector<std::int64_t> TextEdgeSource::read(std::int64_t) {
   return edges_us;
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::serial

@@ -4,11 +4,11 @@
 #include <filesystem>
 #include <functional>
 
-#include "serial/edge_source.h"
-#include "serial/edge_text.h"
-#include "serial/file_descriptor.h"
+#include "voxlist/serial/edge_source.h"
+#include "voxlist/serial/edge_text.h"
+#include "voxlist/system/file_descriptor.h"
 
-namespace voxlist {
+namespace voxlist::serial {
 
 /// Edges as a microcontroller writes them (edge_text.h) on a serial port, or anything does on a
 /// pseudo-terminal or a fifo.
@@ -30,4 +30,4 @@ class TextEdgeSource : public EdgeSource {
   EdgeText text_;
 };
 
-}  // namespace voxlist
+}  // namespace voxlist::serial

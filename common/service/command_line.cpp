@@ -1,16 +1,16 @@
-#include "service/command_line.h"
+#include "voxlist/service/command_line.h"
 
 #include <CLI/CLI.hpp>
 #include <cstdlib>
 #include <iostream>
 
-#include "bus/bus.h"
-#include "config/tables.h"
+#include "voxlist/bus/bus.h"
+#include "voxlist/config/tables.h"
 
-namespace voxlist {
+namespace voxlist::service {
 
-Section bus_section(BusOptions& options) {
-  return {"bus", [&options](SettingsVisitor& v) {
+config::Section bus_section(bus::BusOptions& options) {
+  return {"bus", [&options](config::SettingsVisitor& v) {
             v("url", options.url,
               "LCM network; ttl=0 stays on this machine, ttl=1 on this network");
             v("prefix", options.prefix, "put before every channel name, to tell robots apart");
@@ -20,7 +20,7 @@ Section bus_section(BusOptions& options) {
 }
 
 std::optional<int> read_command_line(int argc, char** argv, const ServiceInfo& info,
-                                     const Section& settings, BusOptions& bus) {
+                                     const config::Section& settings, bus::BusOptions& bus) {
   CLI::App app(info.purpose, info.name);
   std::string file;
   std::string url;
@@ -39,9 +39,9 @@ std::optional<int> read_command_line(int argc, char** argv, const ServiceInfo& i
     return 1;
   }
 
-  const std::vector<Section> sections = {bus_section(bus), settings};
+  const std::vector<config::Section> sections = {bus_section(bus), settings};
   if (!file.empty()) {
-    const auto complaints = read_config(file, sections, kTables);
+    const auto complaints = config::read_config(file, sections, config::kTables);
     for (const std::string& complaint : complaints)
       std::cerr << info.name << ": " << complaint << '\n';
     if (!complaints.empty()) return 1;
@@ -52,8 +52,8 @@ std::optional<int> read_command_line(int argc, char** argv, const ServiceInfo& i
   }
   if (!url.empty()) bus.url = url;
   if (!print) return std::nullopt;
-  std::cout << to_toml(sections) << std::flush;
+  std::cout << config::to_toml(sections) << std::flush;
   return 0;
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::service

@@ -1,10 +1,10 @@
-#include "service/drop_report.h"
+#include "voxlist/service/drop_report.h"
 
 #include <algorithm>
 #include <array>
 #include <string_view>
 
-namespace voxlist {
+namespace voxlist::service {
 namespace {
 
 constexpr std::int64_t kPauseUs = 1'000'000;
@@ -17,7 +17,7 @@ bool is_wrong(std::string_view counter) {
 
 }  // namespace
 
-std::vector<std::string> DropReport::due(const Counters& counters, std::int64_t now_us) {
+std::vector<std::string> DropReport::due(const bus::Counters& counters, std::int64_t now_us) {
   std::vector<std::string> lines;
   for (const auto& [name, count] : counters) {
     if (!is_wrong(name)) continue;
@@ -32,4 +32,4 @@ std::vector<std::string> DropReport::due(const Counters& counters, std::int64_t 
   return lines;
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::service

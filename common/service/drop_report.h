@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "bus/counters.h"
+#include "voxlist/bus/counters.h"
 
-namespace voxlist {
+namespace voxlist::service {
 
 /// Turns a bus's counters into lines for the log: what went wrong the first time at once, then at
 /// most once a second with how often since. Messages received, handled, sent or superseded by newer
@@ -14,7 +14,7 @@ namespace voxlist {
 class DropReport {
  public:
   /// The lines that are due now; call it again and again with the counters as they grow.
-  std::vector<std::string> due(const Counters& counters, std::int64_t now_us);
+  std::vector<std::string> due(const bus::Counters& counters, std::int64_t now_us);
 
  private:
   struct Told {
@@ -24,4 +24,4 @@ class DropReport {
   std::map<std::string, Told> told_;
 };
 
-}  // namespace voxlist
+}  // namespace voxlist::service

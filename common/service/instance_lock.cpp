@@ -1,4 +1,4 @@
-#include "service/instance_lock.h"
+#include "voxlist/service/instance_lock.h"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -12,7 +12,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace voxlist {
+namespace voxlist::service {
 namespace {
 
 std::string network_namespace() {
@@ -60,4 +60,4 @@ std::string lock_name(const std::string& service, const std::string& url,
   return service + "-" + as_file_name(prefix + "-" + network) + "-" + network_namespace() + ".lock";
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::service

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-namespace voxlist {
+namespace voxlist::service {
 
 /// Held by the one running copy of a service on a bus. The file holds the owner's process id; the
 /// kernel lets go of the lock when the process ends, however it ends.
@@ -32,4 +32,4 @@ std::string lock_owner(const std::filesystem::path& file);
 std::string lock_name(const std::string& service, const std::string& url,
                       const std::string& prefix);
 
-}  // namespace voxlist
+}  // namespace voxlist::service

@@ -1,4 +1,4 @@
-#include "service/run_folder.h"
+#include "voxlist/service/run_folder.h"
 
 #include <sys/stat.h>
 #include <unistd.h>
@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace voxlist {
+namespace voxlist::service {
 namespace {
 
 std::filesystem::path wanted_folder() {
@@ -34,4 +34,4 @@ std::filesystem::path run_folder() {
   return folder;
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::service

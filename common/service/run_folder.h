@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-namespace voxlist {
+namespace voxlist::service {
 
 /// The folder for what belongs to running processes (locks, sockets, supervisor's logs):
 /// $VOXLIST_RUN_DIR, else $XDG_RUNTIME_DIR/voxlist, else /tmp/voxlist-UID; made if it is not there.
@@ -10,4 +10,4 @@ namespace voxlist {
 /// the same folder.
 std::filesystem::path run_folder();
 
-}  // namespace voxlist
+}  // namespace voxlist::service

@@ -1,4 +1,4 @@
-#include "service/service.h"
+#include "voxlist/service/service.h"
 
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
@@ -8,15 +8,15 @@
 #include <iostream>
 #include <stdexcept>
 
-#include "bus/bus.h"
-#include "bus/health.h"
-#include "service/command_line.h"
-#include "service/drop_report.h"
-#include "service/instance_lock.h"
-#include "service/run_folder.h"
+#include "voxlist/bus/bus.h"
+#include "voxlist/bus/health.h"
 #include "voxlist/health_t.hpp"
+#include "voxlist/service/command_line.h"
+#include "voxlist/service/drop_report.h"
+#include "voxlist/service/instance_lock.h"
+#include "voxlist/service/run_folder.h"
 
-namespace voxlist {
+namespace voxlist::service {
 namespace {
 
 constexpr std::chrono::milliseconds kTick(20);
@@ -59,7 +59,8 @@ class Clock {
   std::chrono::steady_clock::time_point steady_start_ = std::chrono::steady_clock::now();
 };
 
-void log_troubles(const Bus& bus, DropReport& drops, std::string& told_error, std::int64_t now_us) {
+void log_troubles(const bus::Bus& bus, DropReport& drops, std::string& told_error,
+                  std::int64_t now_us) {
   for (const std::string& line : drops.due(bus.counters(), now_us)) spdlog::warn("{}", line);
   if (told_error == bus.first_handler_error()) return;
   told_error = bus.first_handler_error();
@@ -67,7 +68,7 @@ void log_troubles(const Bus& bus, DropReport& drops, std::string& told_error, st
 }
 
 // False: the bus ended before anyone asked for it.
-bool run_until_stopped(Bus& bus, Health& health, RunningService& service) {
+bool run_until_stopped(bus::Bus& bus, bus::Health& health, RunningService& service) {
   const Clock clock;
   DropReport drops;
   std::string told_error;
@@ -76,14 +77,15 @@ bool run_until_stopped(Bus& bus, Health& health, RunningService& service) {
     open = bus.handle(kTick, service.wake_fd());
     const std::int64_t now_us = clock.now_us();
     service.tick(now_us);
-    if (const auto message = health.due(now_us, bus.counters())) bus.publish(kHealth, *message);
+    if (const auto message = health.due(now_us, bus.counters()))
+      bus.publish(bus::kHealth, *message);
     log_troubles(bus, drops, told_error, now_us);
   }
   service.stop();
   return open;
 }
 
-InstanceLock take_lock(const ServiceInfo& info, const BusOptions& options) {
+InstanceLock take_lock(const ServiceInfo& info, const bus::BusOptions& options) {
   const auto file = run_folder() / lock_name(info.name, options.url, options.prefix);
   auto lock = InstanceLock::take(file);
   if (!lock) {
@@ -95,18 +97,18 @@ InstanceLock take_lock(const ServiceInfo& info, const BusOptions& options) {
 
 }  // namespace
 
-int run_service(int argc, char** argv, const ServiceInfo& info, const Section& settings,
+int run_service(int argc, char** argv, const ServiceInfo& info, const config::Section& settings,
                 const MakeService& make) try {
-  BusOptions options;
+  bus::BusOptions options;
   const auto exit_code = read_command_line(argc, argv, info, settings, options);
   if (exit_code) return *exit_code;
 
   watch_signals();
   log_to_stderr(info.name);
   const InstanceLock lock = take_lock(info, options);
-  Bus bus(options);
+  bus::Bus bus(options);
   for (const std::string& warning : bus.warnings()) spdlog::warn("{}", warning);
-  Health health(info.name);
+  bus::Health health(info.name);
   const auto service = make(bus, health);
   spdlog::info("started on {}", options.url);
   const bool wanted = run_until_stopped(bus, health, *service) || is_recording(options.url);
@@ -118,4 +120,4 @@ int run_service(int argc, char** argv, const ServiceInfo& info, const Section& s
   return 1;
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::service

@@ -5,12 +5,14 @@
 #include <memory>
 #include <string>
 
-#include "config/config.h"
+#include "voxlist/config/config.h"
 
-namespace voxlist {
-
+namespace voxlist::bus {
 class Bus;
 class Health;
+}  // namespace voxlist::bus
+
+namespace voxlist::service {
 
 /// What a service is called (also its table in the settings file and its lock) and what it is for,
 /// in one sentence for --help.
@@ -35,13 +37,13 @@ class RunningService {
   virtual void stop() = 0;
 };
 
-using MakeService = std::function<std::unique_ptr<RunningService>(Bus&, Health&)>;
+using MakeService = std::function<std::unique_ptr<RunningService>(bus::Bus&, bus::Health&)>;
 
 /// Reads the command line and the settings, takes the service's lock, connects, makes the service,
 /// and runs it until SIGTERM or SIGINT, or until a recording that is its bus has ended. HEALTH goes
 /// out once a second. Returns the exit code: 0 after a wanted end, 1 with one line on stderr when
 /// it cannot start or the service throws.
-int run_service(int argc, char** argv, const ServiceInfo& info, const Section& settings,
+int run_service(int argc, char** argv, const ServiceInfo& info, const config::Section& settings,
                 const MakeService& make);
 
 /// The main of a service: Service is made as Service(Bus&, Health&, const Config&) and may have
@@ -49,7 +51,8 @@ int run_service(int argc, char** argv, const ServiceInfo& info, const Section& s
 template <class Service, class Config>
 int run_service(int argc, char** argv, const ServiceInfo& info) {
   struct Adapter : RunningService {
-    Adapter(Bus& bus, Health& health, const Config& config) : service(bus, health, config) {}
+    Adapter(bus::Bus& bus, bus::Health& health, const Config& config)
+        : service(bus, health, config) {}
     void tick([[maybe_unused]] std::int64_t now_us) override {
       if constexpr (requires(Service & s) { s.tick(now_us); }) service.tick(now_us);
     }
@@ -63,9 +66,10 @@ int run_service(int argc, char** argv, const ServiceInfo& info) {
     Service service;
   };
   Config config;
-  return run_service(argc, argv, info, section(info.name, config), [&](Bus& bus, Health& health) {
-    return std::make_unique<Adapter>(bus, health, config);
-  });
+  return run_service(argc, argv, info, config::section(info.name, config),
+                     [&](bus::Bus& bus, bus::Health& health) {
+                       return std::make_unique<Adapter>(bus, health, config);
+                     });
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::service

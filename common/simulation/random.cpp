@@ -1,6 +1,6 @@
-#include "simulation/random.h"
+#include "voxlist/simulation/random.h"
 
-namespace voxlist {
+namespace voxlist::simulation {
 namespace {
 
 constexpr std::uint64_t kGoldenGamma = 0x9e3779b97f4a7c15;
@@ -28,4 +28,4 @@ double Random::normal() {
   return sum - 6.0;
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::simulation

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-namespace voxlist {
+namespace voxlist::simulation {
 
 /// Seeded random numbers that are the same bits with every compiler and library: SplitMix64
 /// (Steele, Lea and Flood 2014), and normals as sums of uniforms, so that not even libm's rounding
@@ -25,4 +25,4 @@ class Random {
   std::uint64_t state_;
 };
 
-}  // namespace voxlist
+}  // namespace voxlist::simulation

@@ -1,4 +1,4 @@
-#include "voxels/bit_grid.h"
+#include "voxlist/voxels/bit_grid.h"
 
 namespace voxlist {
 

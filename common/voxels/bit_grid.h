@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "voxels/voxel.h"
+#include "voxlist/voxels/voxel.h"
 
 namespace voxlist {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "voxels/voxel_map.h"
+#include "voxlist/voxels/voxel_map.h"
 
 namespace voxlist {
 

@@ -1,4 +1,4 @@
-#include "voxels/occupancy_list.h"
+#include "voxlist/voxels/occupancy_list.h"
 
 #include <algorithm>
 #include <stdexcept>

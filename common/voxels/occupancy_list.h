@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "voxels/voxel.h"
+#include "voxlist/voxels/voxel.h"
 
 namespace voxlist {
 

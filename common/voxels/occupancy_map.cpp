@@ -1,9 +1,9 @@
-#include "voxels/occupancy_map.h"
+#include "voxlist/voxels/occupancy_map.h"
 
 #include <algorithm>
 
-#include "voxels/scan_cells.h"
-#include "voxels/voxel_ray.h"
+#include "voxlist/voxels/scan_cells.h"
+#include "voxlist/voxels/voxel_ray.h"
 
 namespace voxlist {
 namespace {

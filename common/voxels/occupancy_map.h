@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "geometry/cloud.h"
-#include "geometry/pose.h"
-#include "voxels/voxel_map.h"
+#include "voxlist/geometry/cloud.h"
+#include "voxlist/geometry/pose.h"
+#include "voxlist/voxels/voxel_map.h"
 
 namespace voxlist {
 

@@ -5,7 +5,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "voxels/voxel_map.h"
+#include "voxlist/voxels/voxel_map.h"
 
 namespace voxlist {
 

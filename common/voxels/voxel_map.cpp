@@ -1,4 +1,4 @@
-#include "voxels/voxel_map.h"
+#include "voxlist/voxels/voxel_map.h"
 
 #include <algorithm>
 #include <numeric>

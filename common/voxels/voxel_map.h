@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "voxels/voxel.h"
+#include "voxlist/voxels/voxel.h"
 
 namespace voxlist {
 

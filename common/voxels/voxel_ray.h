@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "voxels/voxel.h"
+#include "voxlist/voxels/voxel.h"
 
 namespace voxlist {
 

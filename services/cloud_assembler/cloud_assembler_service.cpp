@@ -6,11 +6,11 @@
 #include <voxlist/pointcloud_t.hpp>
 #include <voxlist/pose_t.hpp>
 
-#include "bus/bus.h"
-#include "bus/convert.h"
-#include "bus/health.h"
+#include "voxlist/bus/bus.h"
+#include "voxlist/bus/convert.h"
+#include "voxlist/bus/health.h"
 
-namespace voxlist {
+namespace voxlist::services {
 namespace {
 
 constexpr std::int64_t kSilence_us = 1'000'000;
@@ -20,24 +20,24 @@ constexpr double kGoodLineShare = 0.95;
 
 }  // namespace
 
-CloudAssemblerService::CloudAssemblerService(Bus& bus, Health& health,
-                                             const CloudAssemblerConfig& config)
+CloudAssemblerService::CloudAssemblerService(bus::Bus& bus, bus::Health& health,
+                                             const scanner::CloudAssemblerConfig& config)
     : bus_(bus), health_(health), config_(config), assembler_(config) {
-  bus_.subscribe(kLaser, [this](const planar_lidar_t& m) { take_laser(m); });
-  bus_.subscribe(kMirror, [this](const mirror_state_t& m) { take_mirror(m); });
-  bus_.subscribe(kOdometry, [this](const pose_t& m) { take_odometry(m); });
+  bus_.subscribe(bus::kLaser, [this](const planar_lidar_t& m) { take_laser(m); });
+  bus_.subscribe(bus::kMirror, [this](const mirror_state_t& m) { take_mirror(m); });
+  bus_.subscribe(bus::kOdometry, [this](const pose_t& m) { take_odometry(m); });
 }
 
 void CloudAssemblerService::take_laser(const planar_lidar_t& message) {
   laser_.heard = true;
-  auto line = from_message(message);
+  auto line = bus::from_message(message);
   if (!line) return health_.count("LASER/not_a_line");
   publish(assembler_.add_line(std::move(*line)));
 }
 
 void CloudAssemblerService::take_mirror(const mirror_state_t& message) {
   mirror_.heard = true;
-  auto state = from_message(message);
+  auto state = bus::from_message(message);
   if (!state) return health_.count("MIRROR/not_a_state");
   mirror_state_ = std::move(*state);
   publish(assembler_.add_mirror(mirror_state_));
@@ -45,16 +45,16 @@ void CloudAssemblerService::take_mirror(const mirror_state_t& message) {
 
 void CloudAssemblerService::take_odometry(const pose_t& message) {
   odometry_.heard = true;
-  const auto pose = from_message(message);
+  const auto pose = bus::from_message(message);
   if (!pose) return health_.count("ODOMETRY/not_a_pose");
   publish(assembler_.add_odometry({pose->utime_us, to_pose2(pose->pose)}));
 }
 
-void CloudAssemblerService::publish(const Assembly& assembly) {
+void CloudAssemblerService::publish(const scanner::Assembly& assembly) {
   for (const Cloud& slice : assembly.slices)
-    bus_.publish(kCloudSlice, to_message(slice, "base", slices_++));
+    bus_.publish(bus::kCloudSlice, bus::to_message(slice, "base", slices_++));
   for (const Cloud& cloud : assembly.clouds) {
-    bus_.publish(kCloud, to_message(cloud, "base", clouds_++));
+    bus_.publish(bus::kCloud, bus::to_message(cloud, "base", clouds_++));
     arrival_us_ = bus_.arrival_utime_us();
   }
   line_share_ = assembly.line_share.value_or(line_share_);
@@ -77,7 +77,7 @@ void CloudAssemblerService::tick(std::int64_t now_us) {
 }
 
 void CloudAssemblerService::tell_state(std::int64_t now_us) {
-  using State = Health::State;
+  using State = bus::Health::State;
   if (laser_.is_silent(now_us))
     return health_.set_state(State::kError, "no LASER: is laser_driver running?");
   if (mirror_.is_silent(now_us))
@@ -111,4 +111,4 @@ bool CloudAssemblerService::Input::is_silent(std::int64_t now_us) const {
   return now_us - last_us > kSilence_us;
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::services

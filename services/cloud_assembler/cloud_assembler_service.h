@@ -4,20 +4,23 @@
 #include <optional>
 #include <string>
 
-#include "bus/channels.h"
-#include "scanner/cloud_assembler.h"
+#include "voxlist/bus/channels.h"
+#include "voxlist/scanner/sweep/cloud_assembler.h"
 
-namespace voxlist {
-
+namespace voxlist::bus {
 class Bus;
 class Health;
+}  // namespace voxlist::bus
+
+namespace voxlist::services {
 
 /// LASER, MIRROR and ODOMETRY in; CLOUD and CLOUD_SLICE out, from within the handler of the message
 /// that completes them.
 class CloudAssemblerService {
  public:
   /// Throws std::invalid_argument as CloudAssembler does.
-  CloudAssemblerService(Bus& bus, Health& health, const CloudAssemblerConfig& config);
+  CloudAssemblerService(bus::Bus& bus, bus::Health& health,
+                        const scanner::CloudAssemblerConfig& config);
 
   /// Tells HEALTH what is missing, and how long the last cloud took.
   void tick(std::int64_t now_us);
@@ -34,13 +37,13 @@ class CloudAssemblerService {
   void take_laser(const planar_lidar_t& message);
   void take_mirror(const mirror_state_t& message);
   void take_odometry(const pose_t& message);
-  void publish(const Assembly& assembly);
+  void publish(const scanner::Assembly& assembly);
   void tell_state(std::int64_t now_us);
 
-  Bus& bus_;
-  Health& health_;
-  const CloudAssemblerConfig config_;
-  CloudAssembler assembler_;
+  bus::Bus& bus_;
+  bus::Health& health_;
+  const scanner::CloudAssemblerConfig config_;
+  scanner::CloudAssembler assembler_;
   Input laser_, mirror_, odometry_;
   Input used_;             // lines that got as far as a cloud
   std::string last_drop_;  // why one did not
@@ -51,4 +54,4 @@ class CloudAssemblerService {
   std::optional<std::int64_t> arrival_us_;  // of the message that completed the last cloud
 };
 
-}  // namespace voxlist
+}  // namespace voxlist::services

@@ -6,19 +6,19 @@
 #include <cmath>
 #include <voxlist/planar_lidar_t.hpp>
 
-#include "bus/bus.h"
-#include "bus/convert.h"
-#include "bus/health.h"
-#include "serial/serial_port.h"
+#include "voxlist/bus/bus.h"
+#include "voxlist/bus/convert.h"
+#include "voxlist/bus/health.h"
+#include "voxlist/serial/serial_port.h"
 
-namespace voxlist {
+namespace voxlist::services {
 namespace {
 
 // More beams than this are dazzled by something that a person can turn away.
 constexpr double kDazzled = 0.02;
 
-std::unique_ptr<Port> open_serial(const std::string& path) {
-  auto port = std::make_unique<SerialPort>(path, 9600);
+std::unique_ptr<serial::Port> open_serial(const std::string& path) {
+  auto port = std::make_unique<serial::SerialPort>(path, 9600);
   if (!port->warning().empty()) spdlog::warn("{}", port->warning());
   return port;
 }
@@ -38,7 +38,8 @@ std::string worry(const LaserReader::State& state, const std::string& port) {
 
 }  // namespace
 
-LaserDriverService::LaserDriverService(Bus& bus, Health& health, const Lms200Config& config)
+LaserDriverService::LaserDriverService(bus::Bus& bus, bus::Health& health,
+                                       const scanner::Lms200Config& config)
     : bus_(bus), health_(health), port_(config.port), reader_(config, open_serial) {}
 
 void LaserDriverService::tick(std::int64_t) {
@@ -49,13 +50,13 @@ void LaserDriverService::tick(std::int64_t) {
 }
 
 void LaserDriverService::publish(const LaserReader::Line& line) {
-  bus_.publish(kLaser, to_message(line.line));
+  bus_.publish(bus::kLaser, bus::to_message(line.line));
   const auto waited = std::chrono::steady_clock::now() - line.ready;
   health_.add_latency_us(std::chrono::duration_cast<std::chrono::microseconds>(waited).count());
 }
 
 void LaserDriverService::tell(const LaserReader::State& state) {
-  using S = Health::State;
+  using S = bus::Health::State;
   health_.count("jitter_us", state.jitter_us - told_jitter_us_);
   told_jitter_us_ = state.jitter_us;
   if (state.failed) {
@@ -72,4 +73,4 @@ void LaserDriverService::tell(const LaserReader::State& state) {
   if (state.connected) spdlog::info("reads {}", state.message);
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::services

@@ -5,17 +5,19 @@
 
 #include "services/laser_driver/laser_reader.h"
 
-namespace voxlist {
-
+namespace voxlist::bus {
 class Bus;
 class Health;
+}  // namespace voxlist::bus
+
+namespace voxlist::services {
 
 /// Publishes each line of an LMS 200 as LASER as soon as it is there.
 class LaserDriverService {
  public:
   /// Returns at once; the device is looked for behind the scenes. Throws std::invalid_argument for
   /// settings that make no sense.
-  LaserDriverService(Bus& bus, Health& health, const Lms200Config& config);
+  LaserDriverService(bus::Bus& bus, bus::Health& health, const scanner::Lms200Config& config);
 
   /// Can be read when tick() has something to do.
   int wake_fd() const { return reader_.wake_fd(); }
@@ -30,12 +32,12 @@ class LaserDriverService {
   void publish(const LaserReader::Line& line);
   void tell(const LaserReader::State& state);
 
-  Bus& bus_;
-  Health& health_;
+  bus::Bus& bus_;
+  bus::Health& health_;
   const std::string port_;
   std::int64_t told_jitter_us_ = 0;
   std::string logged_;
   LaserReader reader_;
 };
 
-}  // namespace voxlist
+}  // namespace voxlist::services

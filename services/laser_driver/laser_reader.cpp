@@ -8,7 +8,7 @@
 #include <system_error>
 #include <utility>
 
-namespace voxlist {
+namespace voxlist::services {
 namespace {
 
 using namespace std::chrono_literals;
@@ -29,25 +29,25 @@ int make_event_fd() {
   return fd;
 }
 
-const Lms200Config& checked(const Lms200Config& config) {
+const scanner::Lms200Config& checked(const scanner::Lms200Config& config) {
   if (const std::string wrong = complaint(config); !wrong.empty())
     throw std::invalid_argument(wrong);
   return config;
 }
 
-Counters counters_of(const Lms200Report& report) {
-  Counters counters = {{"lines", report.lines},
-                       {"lost_scans", report.lost_scans},
-                       {"crc_errors", report.damaged},
-                       {"dazzled_beams", report.dazzled_beams},
-                       {"clock_jumps", report.clock_jumps}};
+bus::Counters counters_of(const scanner::Lms200Report& report) {
+  bus::Counters counters = {{"lines", report.lines},
+                            {"lost_scans", report.lost_scans},
+                            {"crc_errors", report.damaged},
+                            {"dazzled_beams", report.dazzled_beams},
+                            {"clock_jumps", report.clock_jumps}};
   for (const auto& [reason, count] : report.refused) counters["refused/" + reason] = count;
   return counters;
 }
 
 }  // namespace
 
-LaserReader::LaserReader(const Lms200Config& config, OpenPort open)
+LaserReader::LaserReader(const scanner::Lms200Config& config, OpenPort open)
     : config_(checked(config)),
       open_(std::move(open)),
       wake_fd_(make_event_fd()),
@@ -90,14 +90,14 @@ void LaserReader::run(const std::stop_token& stop) {
 }
 
 // The port stays open while nothing answers: on some robots opening it switches the laser on.
-void LaserReader::read(Port& port, const std::stop_token& stop) {
-  Lms200 driver(port, config_, stop);
+void LaserReader::read(serial::Port& port, const std::stop_token& stop) {
+  scanner::Lms200 driver(port, config_, stop);
   told_ = {};
   while (!stop.stop_requested()) try {
       driver.begin();
       tell_connected(driver);
       read_lines(driver, stop);
-    } catch (const Lms200Failure& failure) {
+    } catch (const scanner::Lms200Failure& failure) {
       if (stop.stop_requested()) break;
       tell(driver);
       tell_failed(failure.what());
@@ -106,7 +106,7 @@ void LaserReader::read(Port& port, const std::stop_token& stop) {
   driver.end();
 }
 
-void LaserReader::read_lines(Lms200& driver, const std::stop_token& stop) {
+void LaserReader::read_lines(scanner::Lms200& driver, const std::stop_token& stop) {
   while (!stop.stop_requested()) {
     if (auto line = driver.next(kTimeout_us)) {
       pause_ = kShortestPause;
@@ -128,12 +128,12 @@ void LaserReader::pass_on(LaserLine line) {
   wake();
 }
 
-void LaserReader::tell(const Lms200& driver) {
-  const Lms200Report report = driver.report();
-  Counters before = counters_of(std::exchange(told_, report));
+void LaserReader::tell(const scanner::Lms200& driver) {
+  const scanner::Lms200Report report = driver.report();
+  bus::Counters before = counters_of(std::exchange(told_, report));
   told_at_ = steady_clock::now();
   const std::lock_guard lock(mutex_);
-  Counters now = counters_of(report);
+  bus::Counters now = counters_of(report);
   std::int64_t refused = 0;
   for (auto& [name, count] : now) {
     if (const auto was = before.find(name); was != before.end()) count -= was->second;
@@ -149,7 +149,7 @@ void LaserReader::tell(const Lms200& driver) {
   news_.state.lost = before["lines"] > 0 ? now["lost_scans"] + refused : 0;
 }
 
-void LaserReader::tell_connected(const Lms200& driver) {
+void LaserReader::tell_connected(const scanner::Lms200& driver) {
   const std::string type = driver.report().type;
   {
     const std::lock_guard lock(mutex_);
@@ -178,4 +178,4 @@ void LaserReader::pause(const std::stop_token& stop) {
   pause_ = std::min<std::chrono::milliseconds>(2 * pause_, kLongestPause);
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::services

@@ -10,10 +10,10 @@
 #include <string>
 #include <thread>
 
-#include "bus/counters.h"
-#include "scanner/lms200.h"
+#include "voxlist/bus/counters.h"
+#include "voxlist/scanner/lms200/lms200.h"
 
-namespace voxlist {
+namespace voxlist::services {
 
 /// A thread that reads an LMS 200 for ever: it finds it, reads its lines, and finds it again when
 /// it is lost. Lines wait in a queue that holds the last three seconds; older ones are dropped and
@@ -21,10 +21,10 @@ namespace voxlist {
 class LaserReader {
  public:
   /// Opens a serial line by its path, or throws PortError.
-  using OpenPort = std::function<std::unique_ptr<Port>(const std::string& path)>;
+  using OpenPort = std::function<std::unique_ptr<serial::Port>(const std::string& path)>;
 
   /// Starts reading. Throws std::invalid_argument with the config's complaint.
-  LaserReader(const Lms200Config& config, OpenPort open);
+  LaserReader(const scanner::Lms200Config& config, OpenPort open);
 
   /// Stops as stop() does.
   ~LaserReader();
@@ -55,28 +55,28 @@ class LaserReader {
   /// What is new since the last call. Counts are increments.
   struct News {
     std::deque<Line> lines;
-    Counters counts;
+    bus::Counters counts;
     State state;
   };
   News take();
 
  private:
   void run(const std::stop_token& stop);
-  void read(Port& port, const std::stop_token& stop);
-  void read_lines(Lms200& driver, const std::stop_token& stop);
+  void read(serial::Port& port, const std::stop_token& stop);
+  void read_lines(scanner::Lms200& driver, const std::stop_token& stop);
   void pass_on(LaserLine line);
-  void tell(const Lms200& driver);
-  void tell_connected(const Lms200& driver);
+  void tell(const scanner::Lms200& driver);
+  void tell_connected(const scanner::Lms200& driver);
   void tell_failed(const std::string& message);
   void pause(const std::stop_token& stop);
   void wake() const;
 
-  const Lms200Config config_;
+  const scanner::Lms200Config config_;
   const OpenPort open_;
   const int wake_fd_;
 
   // The thread's own.
-  Lms200Report told_;
+  scanner::Lms200Report told_;
   std::chrono::steady_clock::time_point told_at_;
   std::chrono::milliseconds pause_;
 
@@ -87,4 +87,4 @@ class LaserReader {
   std::jthread thread_;
 };
 
-}  // namespace voxlist
+}  // namespace voxlist::services

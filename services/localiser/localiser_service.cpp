@@ -8,21 +8,21 @@
 #include <voxlist/pointcloud_t.hpp>
 #include <voxlist/pose_t.hpp>
 
-#include "bus/bus.h"
-#include "bus/convert.h"
-#include "bus/health.h"
-#include "bus/map_convert.h"
+#include "voxlist/bus/bus.h"
+#include "voxlist/bus/convert.h"
+#include "voxlist/bus/health.h"
+#include "voxlist/bus/map_convert.h"
 
-namespace voxlist {
+namespace voxlist::services {
 namespace {
 
 constexpr std::int64_t kRequestPeriod_us = 1'000'000;
 
-localisation_t to_message(const Localisation& result) {
+localisation_t to_message(const matching::Localisation& result) {
   localisation_t message{};
   message.utime = result.utime_us;
   message.state = static_cast<std::int32_t>(result.state);
-  for (const PoseMode& mode : result.modes) {
+  for (const matching::PoseMode& mode : result.modes) {
     pose_mode_t out{};
     out.pose[0] = mode.T_map_base.x_m;
     out.pose[1] = mode.T_map_base.y_m;
@@ -43,15 +43,16 @@ localisation_t to_message(const Localisation& result) {
 
 }  // namespace
 
-LocaliserService::LocaliserService(Bus& bus, Health& health, const LocaliserServiceConfig& config)
+LocaliserService::LocaliserService(bus::Bus& bus, bus::Health& health,
+                                   const LocaliserServiceConfig& config)
     : bus_(bus), health_(health), config_(config), localiser_(map_, config.localiser) {
-  bus_.subscribe(kOdometry, [this](const pose_t& message) { take_odometry(message); });
-  bus_.subscribe(kMapUpdate, [this](const map_update_t& message) { take_map(message); });
-  bus_.subscribe(kCloud, [this](const pointcloud_t& message) { take_cloud(message); });
+  bus_.subscribe(bus::kOdometry, [this](const pose_t& message) { take_odometry(message); });
+  bus_.subscribe(bus::kMapUpdate, [this](const map_update_t& message) { take_map(message); });
+  bus_.subscribe(bus::kCloud, [this](const pointcloud_t& message) { take_cloud(message); });
 }
 
 void LocaliserService::take_cloud(const pointcloud_t& message) {
-  auto received = from_message(message);
+  auto received = bus::from_message(message);
   if (received.dropped_points > 0) health_.count("CLOUD/dropped_points", received.dropped_points);
   if (!received.cloud) return health_.count("CLOUD/" + received.refusal);
   waiting_.push_back({std::move(*received.cloud), bus_.arrival_utime_us()});
@@ -62,7 +63,7 @@ void LocaliserService::take_cloud(const pointcloud_t& message) {
 }
 
 void LocaliserService::take_odometry(const pose_t& message) {
-  const auto pose = from_message(message);
+  const auto pose = bus::from_message(message);
   if (!pose) return health_.count("ODOMETRY/not_a_pose");
   const StampedPose2 T_odom_base{pose->utime_us, to_pose2(pose->pose)};
   odometry_.add(T_odom_base);
@@ -71,8 +72,8 @@ void LocaliserService::take_odometry(const pose_t& message) {
 
 void LocaliserService::take_map(const map_update_t& message) {
   const auto before = assembler_.held();
-  for (const MapChange& change : assembler_.add(message)) {
-    const AppliedChange applied = apply(change, map_);
+  for (const bus::MapChange& change : assembler_.add(message)) {
+    const bus::AppliedChange applied = bus::apply(change, map_);
     if (applied.replaced)
       localiser_.map_changed();
     else
@@ -102,7 +103,7 @@ void LocaliserService::request_map(std::int64_t now_us) {
   map_request_t request{};
   request.utime = now_us;
   request.want = map_request_t::WANT_MAP;
-  bus_.publish(kMapRequest, request);
+  bus_.publish(bus::kMapRequest, request);
 }
 
 // Whether the map that the waiting cloud is to be matched with is here, or is not worth waiting for
@@ -118,7 +119,7 @@ void LocaliserService::localise(const Cloud& cloud) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
   const auto& held = assembler_.held();
-  Localisation result;
+  matching::Localisation result;
   result.utime_us = cloud.utime_us;
   const auto T_odom_base = odometry_.at(cloud.utime_us);
   if (held) result = localiser_.localise(cloud, T_odom_base);
@@ -131,7 +132,7 @@ void LocaliserService::localise(const Cloud& cloud) {
   message.elapsed_us = static_cast<std::int32_t>(
       std::chrono::duration_cast<std::chrono::microseconds>(Clock::now() - start).count());
   health_.count(std::string("state/") + name(result.state));
-  health_.set_state(result.tracking() ? Health::State::kOk : Health::State::kWarning,
+  health_.set_state(result.tracking() ? bus::Health::State::kOk : bus::Health::State::kWarning,
                     result.tracking() ? ""
                     : held            ? name(result.state)
                                       : "waits for a map: is the mapper running?");
@@ -146,11 +147,11 @@ void LocaliserService::localise(const Cloud& cloud) {
   } else {
     last_pose_.reset();
   }
-  bus_.publish(kLocalisation, message);
+  bus_.publish(bus::kLocalisation, message);
 }
 
 void LocaliserService::publish_pose(std::int64_t utime_us, const Pose2& pose) {
-  pose_t message = voxlist::to_message(StampedPose2{utime_us, pose});
+  pose_t message = bus::to_message(StampedPose2{utime_us, pose});
   // Velocities in base, over the step since the last POSE.
   if (last_pose_ && utime_us > last_pose_->utime_us) {
     const double dt_s = static_cast<double>(utime_us - last_pose_->utime_us) * 1e-6;
@@ -160,7 +161,7 @@ void LocaliserService::publish_pose(std::int64_t utime_us, const Pose2& pose) {
     message.rotation_rate[2] = step.yaw_rad / dt_s;
   }
   if (!last_pose_ || utime_us > last_pose_->utime_us) last_pose_ = StampedPose2{utime_us, pose};
-  bus_.publish(kPose, message);
+  bus_.publish(bus::kPose, message);
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::services

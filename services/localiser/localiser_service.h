@@ -4,23 +4,28 @@
 #include <deque>
 #include <optional>
 
-#include "bus/map_chunks.h"
-#include "geometry/odometry_buffer.h"
-#include "matching/localiser.h"
+#include "voxlist/bus/map_chunks.h"
+#include "voxlist/geometry/odometry_buffer.h"
+#include "voxlist/matching/localisation/localiser.h"
 
 namespace voxlist {
-
-class Bus;
-class Health;
 class map_update_t;
 class pose_t;
 class pointcloud_t;
+}  // namespace voxlist
+
+namespace voxlist::bus {
+class Bus;
+class Health;
+}  // namespace voxlist::bus
+
+namespace voxlist::services {
 
 /// Settings of the localiser.
 struct LocaliserServiceConfig {
   double map_wait_s = 0.5;
   int max_waiting_clouds = 3;
-  LocaliserConfig localiser;
+  matching::LocaliserConfig localiser;
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -41,7 +46,7 @@ struct LocaliserServiceConfig {
 /// the oldest is dropped and counted.
 class LocaliserService {
  public:
-  LocaliserService(Bus& bus, Health& health, const LocaliserServiceConfig& config);
+  LocaliserService(bus::Bus& bus, bus::Health& health, const LocaliserServiceConfig& config);
 
   /// Matches the waiting cloud when its turn has come, and asks for the map when one is missing.
   void tick(std::int64_t now_us);
@@ -60,12 +65,12 @@ class LocaliserService {
   void localise(const Cloud& cloud);
   void publish_pose(std::int64_t utime_us, const Pose2& pose);
 
-  Bus& bus_;
-  Health& health_;
+  bus::Bus& bus_;
+  bus::Health& health_;
   const LocaliserServiceConfig config_;
   OccupancyMap map_;
-  Localiser localiser_;
-  MapAssembler assembler_;
+  matching::Localiser localiser_;
+  bus::MapAssembler assembler_;
   OdometryBuffer odometry_;
   std::deque<Waiting> waiting_;  // oldest first
   std::optional<std::int64_t> last_request_us_;
@@ -77,4 +82,4 @@ class LocaliserService {
   std::optional<StampedPose2> last_pose_;
 };
 
-}  // namespace voxlist
+}  // namespace voxlist::services

@@ -10,14 +10,14 @@
 #include <voxlist/map_update_t.hpp>
 #include <voxlist/pointcloud_t.hpp>
 
-#include "bus/bus.h"
-#include "bus/convert.h"
-#include "bus/health.h"
-#include "bus/map_convert.h"
-#include "io/file.h"
-#include "mapping/map_views.h"
+#include "voxlist/bus/bus.h"
+#include "voxlist/bus/convert.h"
+#include "voxlist/bus/health.h"
+#include "voxlist/bus/map_convert.h"
+#include "voxlist/io/files/file.h"
+#include "voxlist/mapping/map_views.h"
 
-namespace voxlist {
+namespace voxlist::services {
 namespace {
 
 // Clouds that may wait for their localisation.
@@ -35,50 +35,50 @@ std::int64_t new_map_id() {
 std::optional<Pose2> pose_of(const localisation_t& message) {
   if (message.state != localisation_t::STATE_TRACKING || message.modes.empty()) return std::nullopt;
   const double* pose = message.modes.front().pose;
-  const bool sane = std::abs(pose[0]) < kMaxPosition_m && std::abs(pose[1]) < kMaxPosition_m &&
-                    std::isfinite(pose[2]);
+  const bool sane = std::abs(pose[0]) < bus::kMaxPosition_m &&
+                    std::abs(pose[1]) < bus::kMaxPosition_m && std::isfinite(pose[2]);
   return sane ? std::optional(Pose2{pose[0], pose[1], wrap_angle(pose[2])}) : std::nullopt;
 }
 
 }  // namespace
 
-MapperService::MapperService(Bus& bus, Health& health, const MapperServiceConfig& config)
+MapperService::MapperService(bus::Bus& bus, bus::Health& health, const MapperServiceConfig& config)
     : bus_(bus), health_(health), config_(config), builder_(config.builder), map_id_(new_map_id()) {
   load();
-  bus_.subscribe(kCloud, [this](const pointcloud_t& message) { take_cloud(message); });
-  bus_.subscribe(kLocalisation,
+  bus_.subscribe(bus::kCloud, [this](const pointcloud_t& message) { take_cloud(message); });
+  bus_.subscribe(bus::kLocalisation,
                  [this](const localisation_t& message) { take_localisation(message); });
-  bus_.subscribe(kMapRequest, [this](const map_request_t& message) { take_request(message); });
+  bus_.subscribe(bus::kMapRequest, [this](const map_request_t& message) { take_request(message); });
 }
 
 void MapperService::load() {
   if (config_.folder.empty()) return;
   const std::filesystem::path folder = config_.folder;
-  if (!std::filesystem::exists(folder / kKeyframeFile)) {
-    store_ = std::make_unique<MapStore>(folder, map_id_, builder_.keyframes());
+  if (!std::filesystem::exists(folder / mapping::kKeyframeFile)) {
+    store_ = std::make_unique<mapping::MapStore>(folder, map_id_, builder_.keyframes());
     return;
   }
-  StoredMap stored = load_map(folder);
+  mapping::StoredMap stored = mapping::load_map(folder);
   map_id_ = stored.map_id;
-  for (Keyframe& keyframe : stored.keyframes) {
+  for (mapping::Keyframe& keyframe : stored.keyframes) {
     trajectory_.push_back({keyframe.cloud.utime_us, keyframe.T_map_base});
     builder_.add(std::move(keyframe));
   }
   stored_ = builder_.keyframes().size();
   if (stored.warning.empty()) {
-    store_ = std::make_unique<MapStore>(folder);
+    store_ = std::make_unique<mapping::MapStore>(folder);
   } else {
     // What is damaged is kept aside, for whoever wants to look.
-    std::filesystem::copy_file(folder / kKeyframeFile,
-                               folder / (std::string(kKeyframeFile) + ".damaged"),
+    std::filesystem::copy_file(folder / mapping::kKeyframeFile,
+                               folder / (std::string(mapping::kKeyframeFile) + ".damaged"),
                                std::filesystem::copy_options::overwrite_existing);
-    store_ = std::make_unique<MapStore>(folder, map_id_, builder_.keyframes());
-    health_.set_state(Health::State::kWarning, stored.warning);
+    store_ = std::make_unique<mapping::MapStore>(folder, map_id_, builder_.keyframes());
+    health_.set_state(bus::Health::State::kWarning, stored.warning);
   }
 }
 
 void MapperService::take_cloud(const pointcloud_t& message) {
-  auto received = from_message(message);
+  auto received = bus::from_message(message);
   if (!received.cloud) return health_.count("CLOUD/" + received.refusal);
   recent_clouds_.push_back(std::move(*received.cloud));
   if (recent_clouds_.size() > kRecentClouds) recent_clouds_.pop_front();
@@ -109,7 +109,7 @@ void MapperService::add(std::int64_t utime_us, const Pose2& pose) {
 void MapperService::take_request(const map_request_t& message) {
   switch (message.want) {
     case map_request_t::WANT_MAP:
-      if (whole_maps_queued_ == 0) send_change(kWholeMap);
+      if (whole_maps_queued_ == 0) send_change(bus::kWholeMap);
       return;
     case map_request_t::WANT_KEYFRAMES:
       return resend_keyframes(static_cast<std::size_t>(std::max(0, message.first)));
@@ -122,25 +122,25 @@ void MapperService::take_request(const map_request_t& message) {
 }
 
 void MapperService::send_change(std::int64_t base_version) {
-  MapChange change;
+  bus::MapChange change;
   change.utime_us = decided_utime_us_;
   change.map_id = map_id_;
   change.version = version();
   change.base_version = base_version;
-  change.resolution = resolution_of(builder_.map());
-  if (base_version == kWholeMap) {
-    change.blocks = to_messages(builder_.map());
+  change.resolution = bus::resolution_of(builder_.map());
+  if (base_version == bus::kWholeMap) {
+    change.blocks = bus::to_messages(builder_.map());
   } else if (base_version != version()) {
-    change.blocks = to_messages(builder_.map(), builder_.changed_blocks());
+    change.blocks = bus::to_messages(builder_.map(), builder_.changed_blocks());
   }
   const bool whole = change.is_whole();
-  auto messages = split_map(std::move(change));
+  auto messages = bus::split_map(std::move(change));
   for (std::size_t i = 0; i < messages.size(); ++i) {
     const bool last_of_whole = whole && i + 1 == messages.size();
     auto message = std::make_shared<map_update_t>(std::move(messages[i]));
     const auto bytes = static_cast<std::size_t>(message->getEncodedSize());
     const bool queued = sender_.push(bytes, [this, message, last_of_whole] {
-      bus_.publish(kMapUpdate, *message);
+      bus_.publish(bus::kMapUpdate, *message);
       if (last_of_whole) --whole_maps_queued_;
     });
     if (!queued) return health_.count("MAP_UPDATE/queue_full");
@@ -150,12 +150,13 @@ void MapperService::send_change(std::int64_t base_version) {
 
 void MapperService::send_keyframes(std::size_t first) {
   for (std::size_t i = first; i < builder_.keyframes().size(); ++i) {
-    const Keyframe& keyframe = builder_.keyframes()[i];
+    const mapping::Keyframe& keyframe = builder_.keyframes()[i];
     const std::size_t bytes = 24 * keyframe.cloud.points.size();
     const bool queued = sender_.push(bytes, [this, i] {
-      const Keyframe& k = builder_.keyframes()[i];
-      bus_.publish(kKeyframe, to_message(PosedCloud{map_id_, static_cast<std::int32_t>(i),
-                                                    k.T_map_base, k.cloud}));
+      const mapping::Keyframe& k = builder_.keyframes()[i];
+      bus_.publish(bus::kKeyframe,
+                   bus::to_message(bus::PosedCloud{map_id_, static_cast<std::int32_t>(i),
+                                                   k.T_map_base, k.cloud}));
     });
     // The listener asks again for what did not fit.
     if (!queued) return health_.count("KEYFRAME/queue_full");
@@ -173,10 +174,10 @@ void MapperService::store_keyframes() {
   try {
     for (; stored_ < builder_.keyframes().size(); ++stored_)
       store_->append(builder_.keyframes()[stored_]);
-    health_.set_state(Health::State::kOk);
-  } catch (const FileError& error) {
+    health_.set_state(bus::Health::State::kOk);
+  } catch (const io::FileError& error) {
     health_.count("save_failed");
-    health_.set_state(Health::State::kError, error.what());
+    health_.set_state(bus::Health::State::kError, error.what());
   }
 }
 
@@ -199,9 +200,9 @@ void MapperService::sync() {
   try {
     store_->sync();
     synced_ = stored_;
-  } catch (const FileError& error) {
+  } catch (const io::FileError& error) {
     health_.count("save_failed");
-    health_.set_state(Health::State::kError, error.what());
+    health_.set_state(bus::Health::State::kError, error.what());
   }
 }
 
@@ -210,14 +211,14 @@ void MapperService::save() {
   store_keyframes();
   sync();
   try {
-    write_map_views(config_.folder, builder_.map().occupied, trajectory_);
+    mapping::write_map_views(config_.folder, builder_.map().occupied, trajectory_);
     health_.count("saved");
-  } catch (const FileError& error) {
+  } catch (const io::FileError& error) {
     health_.count("save_failed");
-    health_.set_state(Health::State::kError, error.what());
+    health_.set_state(bus::Health::State::kError, error.what());
   }
 }
 
 void MapperService::stop() { save(); }
 
-}  // namespace voxlist
+}  // namespace voxlist::services

@@ -7,24 +7,29 @@
 #include <string>
 #include <vector>
 
-#include "bus/paced_sender.h"
-#include "mapping/map_builder.h"
-#include "mapping/map_store.h"
+#include "voxlist/bus/paced_sender.h"
+#include "voxlist/mapping/map_builder.h"
+#include "voxlist/mapping/map_store.h"
 
 namespace voxlist {
-
-class Bus;
-class Health;
 class localisation_t;
 class map_request_t;
 class pointcloud_t;
+}  // namespace voxlist
+
+namespace voxlist::bus {
+class Bus;
+class Health;
+}  // namespace voxlist::bus
+
+namespace voxlist::services {
 
 /// Settings of the mapper.
 struct MapperServiceConfig {
   std::string folder = "map";
   bool extend = true;
   double save_period_s = 10.0;
-  MapBuilderConfig builder;
+  mapping::MapBuilderConfig builder;
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -46,7 +51,7 @@ class MapperService {
  public:
   /// Loads the folder's map. Throws FileError when there is one that cannot be read or no folder
   /// can be made.
-  MapperService(Bus& bus, Health& health, const MapperServiceConfig& config);
+  MapperService(bus::Bus& bus, bus::Health& health, const MapperServiceConfig& config);
 
   /// Sends what is queued, as fast as listeners can take it, and syncs the disk when it is time.
   void tick(std::int64_t now_us);
@@ -68,17 +73,17 @@ class MapperService {
   void save();
   std::int64_t version() const { return static_cast<std::int64_t>(builder_.keyframes().size()); }
 
-  Bus& bus_;
-  Health& health_;
+  bus::Bus& bus_;
+  bus::Health& health_;
   const MapperServiceConfig config_;
-  MapBuilder builder_;
+  mapping::MapBuilder builder_;
   std::int64_t map_id_ = 0;
-  std::unique_ptr<MapStore> store_;
+  std::unique_ptr<mapping::MapStore> store_;
   std::size_t stored_ = 0;  // keyframes that were appended to the store
   std::size_t synced_ = 0;  // keyframes that would survive a power cut
   std::vector<StampedPose3> trajectory_;
   std::deque<Cloud> recent_clouds_;
-  PacedSender sender_;
+  bus::PacedSender sender_;
   std::int64_t decided_utime_us_ = 0;
   // Requests are answered one at a time, whoever asks and however often.
   std::int64_t whole_maps_queued_ = 0;
@@ -88,4 +93,4 @@ class MapperService {
   std::optional<std::int64_t> last_sync_us_;
 };
 
-}  // namespace voxlist
+}  // namespace voxlist::services

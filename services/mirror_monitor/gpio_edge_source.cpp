@@ -8,9 +8,9 @@
 #include <cstring>
 #include <ctime>
 
-#include "serial/port.h"
+#include "voxlist/serial/port.h"
 
-namespace voxlist {
+namespace voxlist::services {
 namespace {
 
 std::int64_t us_of(const timespec& time) { return time.tv_sec * 1'000'000LL + time.tv_nsec / 1000; }
@@ -29,9 +29,10 @@ std::int64_t to_wall_us(std::int64_t stamp_us) {
 }
 
 [[noreturn]] void fail(const std::string& where) {
-  throw PortError("clock at " + where + ": " + std::strerror(errno) +
-                  "; check chip and pin (gpioinfo), that nothing else uses the pin, and that you "
-                  "may (group gpio)");
+  throw serial::PortError(
+      "clock at " + where + ": " + std::strerror(errno) +
+      "; check chip and pin (gpioinfo), that nothing else uses the pin, and that you "
+      "may (group gpio)");
 }
 
 }  // namespace
@@ -71,4 +72,4 @@ std::vector<std::int64_t> GpioEdgeSource::read(std::int64_t) {
 
 int GpioEdgeSource::wake_fd() const { return gpiod_line_event_get_fd(line_->line); }
 
-}  // namespace voxlist
+}  // namespace voxlist::services

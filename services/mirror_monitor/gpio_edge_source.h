@@ -3,12 +3,12 @@
 #include <memory>
 #include <string>
 
-#include "serial/edge_source.h"
+#include "voxlist/serial/edge_source.h"
 
-namespace voxlist {
+namespace voxlist::services {
 
 /// Rising edges on a pin, stamped by the kernel (libgpiod 1).
-class GpioEdgeSource : public EdgeSource {
+class GpioEdgeSource : public serial::EdgeSource {
  public:
   /// `chip` as "gpiochip0", `pin` its line. Throws PortError.
   GpioEdgeSource(const std::string& chip, unsigned pin);
@@ -22,4 +22,4 @@ class GpioEdgeSource : public EdgeSource {
   std::unique_ptr<Line> line_;
 };
 
-}  // namespace voxlist
+}  // namespace voxlist::services

@@ -3,7 +3,7 @@
 #include <numbers>
 #include <stdexcept>
 
-namespace voxlist {
+namespace voxlist::services {
 namespace {
 
 constexpr double kDegree_rad = std::numbers::pi / 180.0;
@@ -13,14 +13,14 @@ constexpr double kMinArm_deg = 8.0;
 
 }  // namespace
 
-MirrorClockConfig mirror_clock_config(const MirrorMonitorConfig& config) {
+scanner::MirrorClockConfig mirror_clock_config(const MirrorMonitorConfig& config) {
   const std::size_t arms = config.arm_angle_deg.size();
   if (arms < 1 || arms > 2) throw std::invalid_argument("arm_angle_deg must name one arm or two");
   if (config.arm_first_beam_deg.size() != arms || config.arm_last_beam_deg.size() != arms) {
     throw std::invalid_argument(
         "arm_first_beam_deg and arm_last_beam_deg must have as many values as arm_angle_deg");
   }
-  MirrorClockConfig result;
+  scanner::MirrorClockConfig result;
   for (std::size_t i = 0; i < arms; ++i) {
     const double first_deg = config.arm_first_beam_deg[i], last_deg = config.arm_last_beam_deg[i];
     if (last_deg - first_deg < kMinArm_deg)
@@ -37,4 +37,4 @@ MirrorClockConfig mirror_clock_config(const MirrorMonitorConfig& config) {
   return result;
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::services

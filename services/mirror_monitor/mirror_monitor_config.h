@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "scanner/mirror_clock.h"
+#include "voxlist/scanner/mirror/mirror_clock.h"
 
-namespace voxlist {
+namespace voxlist::services {
 
 /// Settings of the mirror monitor.
 struct MirrorMonitorConfig {
@@ -42,6 +42,6 @@ struct MirrorMonitorConfig {
 };
 
 /// What the mirror clock is to know. Throws std::invalid_argument for settings that make no sense.
-MirrorClockConfig mirror_clock_config(const MirrorMonitorConfig& config);
+scanner::MirrorClockConfig mirror_clock_config(const MirrorMonitorConfig& config);
 
-}  // namespace voxlist
+}  // namespace voxlist::services

@@ -8,13 +8,13 @@
 #include <voxlist/mirror_state_t.hpp>
 #include <voxlist/planar_lidar_t.hpp>
 
-#include "bus/bus.h"
-#include "bus/convert.h"
-#include "bus/health.h"
-#include "scanner/mirror_state.h"
 #include "services/mirror_monitor/open_edge_source.h"
+#include "voxlist/bus/bus.h"
+#include "voxlist/bus/convert.h"
+#include "voxlist/bus/health.h"
+#include "voxlist/geometry/mirror_state.h"
 
-namespace voxlist {
+namespace voxlist::services {
 namespace {
 
 std::int64_t wall_us() {
@@ -22,40 +22,40 @@ std::int64_t wall_us() {
   return duration_cast<microseconds>(system_clock::now().time_since_epoch()).count();
 }
 
-Health::State how_bad(const MirrorState& state) {
+bus::Health::State how_bad(const MirrorState& state) {
   switch (state.state) {
     case MirrorState::State::kLocked:
-      return Health::State::kOk;
+      return bus::Health::State::kOk;
     case MirrorState::State::kStalled:
-      return Health::State::kError;
+      return bus::Health::State::kError;
     case MirrorState::State::kFault:
     case MirrorState::State::kSearching:
       break;
   }
-  return Health::State::kWarning;
+  return bus::Health::State::kWarning;
 }
 
 }  // namespace
 
-MirrorMonitorService::MirrorMonitorService(Bus& bus, Health& health,
+MirrorMonitorService::MirrorMonitorService(bus::Bus& bus, bus::Health& health,
                                            const MirrorMonitorConfig& config)
     : MirrorMonitorService(bus, health, config, wall_us) {}
 
-MirrorMonitorService::MirrorMonitorService(Bus& bus, Health& health,
+MirrorMonitorService::MirrorMonitorService(bus::Bus& bus, bus::Health& health,
                                            const MirrorMonitorConfig& config, WallClock wall_clock)
     : bus_(bus),
       health_(health),
       clock_(mirror_clock_config(config)),
       edges_(open_edge_source(config.clock, std::move(wall_clock))) {
-  bus_.subscribe(kLaser, [this](const planar_lidar_t& m) { take(m); });
+  bus_.subscribe(bus::kLaser, [this](const planar_lidar_t& m) { take(m); });
 }
 
 void MirrorMonitorService::take(const planar_lidar_t& message) {
-  const std::optional<LaserLine> line = from_message(message);
+  const std::optional<LaserLine> line = bus::from_message(message);
   if (!line) return health_.count("LASER/bad_line");
   read_edges();
   last_ = clock_.add_line(*line);
-  bus_.publish(kMirror, to_message(*last_));
+  bus_.publish(bus::kMirror, bus::to_message(*last_));
   arrival_us_ = bus_.arrival_utime_us();
 }
 
@@ -80,7 +80,7 @@ void MirrorMonitorService::count() {
     if (value != counted || value == 0) health_.count(what, value - counted);
     counted = value;
   };
-  const MirrorClock::Counts counts = clock_.counts();
+  const scanner::MirrorClock::Counts counts = clock_.counts();
   set("edges", counts.edges);
   set("lost_edges", counts.lost_edges);
   set("extra_edges", counts.extra_edges);
@@ -97,7 +97,7 @@ void MirrorMonitorService::count() {
 }
 
 void MirrorMonitorService::tell() {
-  using S = Health::State;
+  using S = bus::Health::State;
   std::string what = edges_ ? edges_->trouble() : "";
   S state = what.empty() ? S::kOk : S::kWarning;
   if (!last_) {
@@ -116,4 +116,4 @@ void MirrorMonitorService::tell() {
   if (!what.empty()) spdlog::warn("{}", what);
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::services

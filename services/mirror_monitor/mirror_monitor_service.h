@@ -7,16 +7,21 @@
 #include <optional>
 #include <string>
 
-#include "bus/channels.h"
-#include "scanner/mirror_clock.h"
-#include "serial/edge_source.h"
 #include "services/mirror_monitor/mirror_monitor_config.h"
+#include "voxlist/bus/channels.h"
+#include "voxlist/scanner/mirror/mirror_clock.h"
+#include "voxlist/serial/edge_source.h"
 
 namespace voxlist {
+struct MirrorState;
+}
 
+namespace voxlist::bus {
 class Bus;
 class Health;
-struct MirrorState;
+}  // namespace voxlist::bus
+
+namespace voxlist::services {
 
 /// Reads the mirror's clock and LASER, and publishes MIRROR for each line.
 class MirrorMonitorService {
@@ -26,8 +31,8 @@ class MirrorMonitorService {
 
   /// Throws std::invalid_argument for settings that make no sense. The clock's device may come
   /// later, and go.
-  MirrorMonitorService(Bus& bus, Health& health, const MirrorMonitorConfig& config);
-  MirrorMonitorService(Bus& bus, Health& health, const MirrorMonitorConfig& config,
+  MirrorMonitorService(bus::Bus& bus, bus::Health& health, const MirrorMonitorConfig& config);
+  MirrorMonitorService(bus::Bus& bus, bus::Health& health, const MirrorMonitorConfig& config,
                        WallClock wall_clock);
 
   /// Can be read when the clock has edges.
@@ -42,10 +47,10 @@ class MirrorMonitorService {
   void count();
   void tell();
 
-  Bus& bus_;
-  Health& health_;
-  MirrorClock clock_;
-  std::unique_ptr<EdgeSource> edges_;
+  bus::Bus& bus_;
+  bus::Health& health_;
+  scanner::MirrorClock clock_;
+  std::unique_ptr<serial::EdgeSource> edges_;
   std::optional<MirrorState> last_;
   std::int64_t now_us_ = 0;
   std::optional<std::int64_t> arrival_us_;
@@ -53,4 +58,4 @@ class MirrorMonitorService {
   std::string logged_;
 };
 
-}  // namespace voxlist
+}  // namespace voxlist::services

@@ -5,12 +5,12 @@
 #include <set>
 #include <stdexcept>
 
-#include "serial/modem_edge_source.h"
-#include "serial/reopened_edge_source.h"
-#include "serial/text_edge_source.h"
 #include "services/mirror_monitor/gpio_edge_source.h"
+#include "voxlist/serial/modem_edge_source.h"
+#include "voxlist/serial/reopened_edge_source.h"
+#include "voxlist/serial/text_edge_source.h"
 
-namespace voxlist {
+namespace voxlist::services {
 namespace {
 
 constexpr int kUsualBaud = 115'200;
@@ -41,10 +41,10 @@ std::optional<int> number(const std::string& text) {
 
 }  // namespace
 
-std::unique_ptr<EdgeSource> open_edge_source(const std::string& where,
-                                             std::function<std::int64_t()> clock) {
+std::unique_ptr<serial::EdgeSource> open_edge_source(const std::string& where,
+                                                     std::function<std::int64_t()> clock) {
   if (where == "none") return nullptr;
-  ReopenedEdgeSource::Open open;
+  serial::ReopenedEdgeSource::Open open;
   if (where.starts_with("gpio:")) {
     const auto parts = split(where.substr(5), '/');
     const auto pin = parts ? number(parts->second) : std::nullopt;
@@ -57,19 +57,19 @@ std::unique_ptr<EdgeSource> open_edge_source(const std::string& where,
     if (!parts || !std::set<std::string>{"cts", "dcd", "dsr", "ri"}.contains(parts->second))
       refuse(where);
     open = [parts = *parts] {
-      return std::make_unique<ModemEdgeSource>(parts.first, parts.second);
+      return std::make_unique<serial::ModemEdgeSource>(parts.first, parts.second);
     };
   } else if (where.starts_with("text:") && where.size() > 5) {
     const auto parts = split(where.substr(5), '@');
     const auto baud = parts ? number(parts->second) : kUsualBaud;
     if (!baud) refuse(where);
     open = [path = parts ? parts->first : where.substr(5), baud = *baud, clock = std::move(clock)] {
-      return std::make_unique<TextEdgeSource>(path, baud, clock);
+      return std::make_unique<serial::TextEdgeSource>(path, baud, clock);
     };
   } else {
     refuse(where);
   }
-  return std::make_unique<ReopenedEdgeSource>(std::move(open));
+  return std::make_unique<serial::ReopenedEdgeSource>(std::move(open));
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::services

@@ -4,15 +4,15 @@
 #include <voxlist/obstacles_t.hpp>
 #include <voxlist/pointcloud_t.hpp>
 
-#include "bus/bus.h"
-#include "bus/convert.h"
-#include "bus/health.h"
+#include "voxlist/bus/bus.h"
+#include "voxlist/bus/convert.h"
+#include "voxlist/bus/health.h"
 
-namespace voxlist {
+namespace voxlist::services {
 namespace {
 
 // A detector that can see nothing would tell a planner that the way is free.
-const ObstacleConfig& checked(const ObstacleConfig& config) {
+const planning::ObstacleConfig& checked(const planning::ObstacleConfig& config) {
   if (config.min_height_m >= config.max_height_m)
     throw std::invalid_argument("min_height_m must be below max_height_m");
   if (config.min_range_m >= config.max_range_m)
@@ -20,7 +20,7 @@ const ObstacleConfig& checked(const ObstacleConfig& config) {
   return config;
 }
 
-obstacles_t to_message(const ObstacleScan& scan, const ObstacleConfig& config) {
+obstacles_t to_message(const planning::ObstacleScan& scan, const planning::ObstacleConfig& config) {
   obstacles_t message{};
   message.utime = scan.utime_us;
   message.min_height_m = static_cast<float>(config.min_height_m);
@@ -37,18 +37,19 @@ obstacles_t to_message(const ObstacleScan& scan, const ObstacleConfig& config) {
 
 }  // namespace
 
-ObstacleDetectorService::ObstacleDetectorService(Bus& bus, Health& health,
-                                                 const ObstacleConfig& config)
+ObstacleDetectorService::ObstacleDetectorService(bus::Bus& bus, bus::Health& health,
+                                                 const planning::ObstacleConfig& config)
     : bus_(bus), health_(health), config_(checked(config)) {
   bus_.subscribe(
-      kCloud, [this](const pointcloud_t& m) { take(m); }, Delivery::kLatest);
+      bus::kCloud, [this](const pointcloud_t& m) { take(m); }, bus::Delivery::kLatest);
 }
 
 void ObstacleDetectorService::take(const pointcloud_t& message) {
-  const ReceivedCloud received = from_message(message);
+  const bus::ReceivedCloud received = bus::from_message(message);
   if (received.dropped_points > 0) health_.count("CLOUD/dropped_points", received.dropped_points);
   if (!received.cloud) return health_.count("CLOUD/" + received.refusal);
-  bus_.publish(kObstacles, to_message(nearest_obstacles(*received.cloud, config_), config_));
+  bus_.publish(bus::kObstacles,
+               to_message(planning::nearest_obstacles(*received.cloud, config_), config_));
   arrival_us_ = bus_.arrival_utime_us();
 }
 
@@ -57,4 +58,4 @@ void ObstacleDetectorService::tick(std::int64_t now_us) {
   arrival_us_.reset();
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::services

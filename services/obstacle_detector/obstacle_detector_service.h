@@ -3,19 +3,22 @@
 #include <cstdint>
 #include <optional>
 
-#include "bus/channels.h"
-#include "planning/obstacles.h"
+#include "voxlist/bus/channels.h"
+#include "voxlist/planning/obstacles.h"
 
-namespace voxlist {
-
+namespace voxlist::bus {
 class Bus;
 class Health;
+}  // namespace voxlist::bus
+
+namespace voxlist::services {
 
 /// Looks at the newest CLOUD and publishes OBSTACLES.
 class ObstacleDetectorService {
  public:
   /// Throws std::invalid_argument when the config's heights or ranges leave nothing to look at.
-  ObstacleDetectorService(Bus& bus, Health& health, const ObstacleConfig& config);
+  ObstacleDetectorService(bus::Bus& bus, bus::Health& health,
+                          const planning::ObstacleConfig& config);
 
   /// Notes for HEALTH how long the last cloud took.
   void tick(std::int64_t now_us);
@@ -23,10 +26,10 @@ class ObstacleDetectorService {
  private:
   void take(const pointcloud_t& message);
 
-  Bus& bus_;
-  Health& health_;
-  const ObstacleConfig config_;
+  bus::Bus& bus_;
+  bus::Health& health_;
+  const planning::ObstacleConfig config_;
   std::optional<std::int64_t> arrival_us_;  // of the cloud that was handled last
 };
 
-}  // namespace voxlist
+}  // namespace voxlist::services

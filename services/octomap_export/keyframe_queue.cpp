@@ -4,15 +4,15 @@
 #include <iterator>
 #include <utility>
 
-namespace voxlist {
+namespace voxlist::services {
 
-bool KeyframeQueue::is_of_another_map(const PosedCloud& keyframe) const {
+bool KeyframeQueue::is_of_another_map(const bus::PosedCloud& keyframe) const {
   if (map_id_ != keyframe.map_id) return true;
   return keyframe.index < next_index() &&
          handed_out_us_[static_cast<std::size_t>(keyframe.index)] != keyframe.cloud.utime_us;
 }
 
-KeyframeQueue::Verdict KeyframeQueue::add(PosedCloud keyframe) {
+KeyframeQueue::Verdict KeyframeQueue::add(bus::PosedCloud keyframe) {
   if (is_of_another_map(keyframe)) {
     *this = {};
     map_id_ = keyframe.map_id;
@@ -26,7 +26,7 @@ KeyframeQueue::Verdict KeyframeQueue::add(PosedCloud keyframe) {
   return Verdict::kDroppedOne;
 }
 
-std::optional<PosedCloud> KeyframeQueue::next() {
+std::optional<bus::PosedCloud> KeyframeQueue::next() {
   auto node = waiting_.extract(next_index());
   if (!node) return std::nullopt;
   handed_out_us_.push_back(node.mapped().cloud.utime_us);
@@ -41,4 +41,4 @@ std::optional<std::int32_t> KeyframeQueue::missing() const {
 
 bool KeyframeQueue::is_done() const { return map_id_ && last_known_ < next_index(); }
 
-}  // namespace voxlist
+}  // namespace voxlist::services

@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "bus/convert.h"
+#include "voxlist/bus/convert.h"
 
-namespace voxlist {
+namespace voxlist::services {
 
 /// Puts a map's keyframes in the order of their indices, whatever the order that they come in, in
 /// bounded memory.
@@ -23,10 +23,10 @@ class KeyframeQueue {
 
   /// Takes a keyframe. One of another map, or another one than was handed out at its index (the
   /// mapper lost its newest and went on), starts all over from index 0.
-  Verdict add(PosedCloud keyframe);
+  Verdict add(bus::PosedCloud keyframe);
 
   /// The next keyframe in order, if it is there. The first of each map has index 0.
-  std::optional<PosedCloud> next();
+  std::optional<bus::PosedCloud> next();
 
   /// The index without which it cannot go on, if there is one: 0 before any keyframe, later where
   /// a gap is. Nothing while next() has something, or when all that is known of was handed out.
@@ -37,12 +37,12 @@ class KeyframeQueue {
 
  private:
   std::int32_t next_index() const { return static_cast<std::int32_t>(handed_out_us_.size()); }
-  bool is_of_another_map(const PosedCloud& keyframe) const;
+  bool is_of_another_map(const bus::PosedCloud& keyframe) const;
 
   std::optional<std::int64_t> map_id_;
   std::vector<std::int64_t> handed_out_us_;  // utime of each
-  std::map<std::int32_t, PosedCloud> waiting_;
+  std::map<std::int32_t, bus::PosedCloud> waiting_;
   std::int32_t last_known_ = -1;  // index
 };
 
-}  // namespace voxlist
+}  // namespace voxlist::services

@@ -9,10 +9,10 @@
 #include <voxlist/map_octree_t.hpp>
 #include <voxlist/map_request_t.hpp>
 
-#include "bus/bus.h"
-#include "bus/health.h"
+#include "voxlist/bus/bus.h"
+#include "voxlist/bus/health.h"
 
-namespace voxlist {
+namespace voxlist::services {
 namespace {
 
 constexpr std::int64_t kSecond_us = 1'000'000;
@@ -21,14 +21,14 @@ constexpr std::int64_t kPublishPeriod_us = kSecond_us;
 
 }  // namespace
 
-OctomapExportService::OctomapExportService(Bus& bus, Health& health,
+OctomapExportService::OctomapExportService(bus::Bus& bus, bus::Health& health,
                                            const OctomapExportConfig& config)
     : bus_(bus), health_(health), config_(config), builder_(config.octomap) {
-  bus_.subscribe(kKeyframe, [this](const keyframe_t& m) { take(m); });
+  bus_.subscribe(bus::kKeyframe, [this](const keyframe_t& m) { take(m); });
 }
 
 void OctomapExportService::take(const keyframe_t& message) {
-  auto keyframe = from_message(message);
+  auto keyframe = bus::from_message(message);
   if (!keyframe) return health_.count("KEYFRAME/refused");
   using Verdict = KeyframeQueue::Verdict;
   const Verdict verdict = queue_.add(std::move(*keyframe));
@@ -55,8 +55,8 @@ void OctomapExportService::stop() {
   if (saving_.changed) save(0);
 }
 
-void OctomapExportService::insert(const PosedCloud& keyframe) {
-  if (keyframe.index == 0) builder_ = OctomapBuilder(config_.octomap);
+void OctomapExportService::insert(const bus::PosedCloud& keyframe) {
+  if (keyframe.index == 0) builder_ = planning::OctomapBuilder(config_.octomap);
   builder_.insert(keyframe.T_map_base, keyframe.cloud);
   map_id_ = keyframe.map_id;
   utime_us_ = keyframe.cloud.utime_us;
@@ -72,7 +72,7 @@ void OctomapExportService::ask(std::int32_t first, std::int64_t now_us) {
   request.utime = utime_us_;
   request.want = map_request_t::WANT_KEYFRAMES;
   request.first = first;
-  bus_.publish(kMapRequest, request);
+  bus_.publish(bus::kMapRequest, request);
 }
 
 void OctomapExportService::publish(std::int64_t now_us) {
@@ -84,7 +84,7 @@ void OctomapExportService::publish(std::int64_t now_us) {
   message.data = builder_.binary();
   message.num_bytes = static_cast<std::int32_t>(message.data.size());
   for (int i = 0; i < 4; ++i) message.transform[i][i] = 1.0F;
-  bus_.publish(kOctomap, message);
+  bus_.publish(bus::kOctomap, message);
 }
 
 void OctomapExportService::save(std::int64_t now_us) {
@@ -109,7 +109,7 @@ void OctomapExportService::write_files() const {
 }
 
 void OctomapExportService::report() {
-  using State = Health::State;
+  using State = bus::Health::State;
   const auto missing = queue_.missing();
   if (!save_error_.empty()) return health_.set_state(State::kError, save_error_);
   if (!missing) return health_.set_state(State::kOk);
@@ -117,4 +117,4 @@ void OctomapExportService::report() {
   health_.set_state(State::kWarning, "waits for keyframe " + std::to_string(*missing));
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::services

@@ -4,20 +4,22 @@
 #include <optional>
 #include <string>
 
-#include "bus/channels.h"
-#include "planning/octomap.h"
 #include "services/octomap_export/keyframe_queue.h"
+#include "voxlist/bus/channels.h"
+#include "voxlist/planning/octomap.h"
 
-namespace voxlist {
-
+namespace voxlist::bus {
 class Bus;
 class Health;
+}  // namespace voxlist::bus
+
+namespace voxlist::services {
 
 /// Settings of the OctoMap export.
 struct OctomapExportConfig {
   std::string folder;
   double save_period_s = 30.0;
-  OctomapConfig octomap;
+  planning::OctomapConfig octomap;
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -32,7 +34,7 @@ struct OctomapExportConfig {
 /// as files.
 class OctomapExportService {
  public:
-  OctomapExportService(Bus& bus, Health& health, const OctomapExportConfig& config);
+  OctomapExportService(bus::Bus& bus, bus::Health& health, const OctomapExportConfig& config);
 
   /// Inserts one keyframe at most, asks for what is missing, and publishes and saves what is due.
   void tick(std::int64_t now_us);
@@ -52,18 +54,18 @@ class OctomapExportService {
   };
 
   void take(const keyframe_t& message);
-  void insert(const PosedCloud& keyframe);
+  void insert(const bus::PosedCloud& keyframe);
   void ask(std::int32_t first, std::int64_t now_us);
   void publish(std::int64_t now_us);
   void save(std::int64_t now_us);
   void write_files() const;
   void report();
 
-  Bus& bus_;
-  Health& health_;
+  bus::Bus& bus_;
+  bus::Health& health_;
   const OctomapExportConfig config_;
   KeyframeQueue queue_;
-  OctomapBuilder builder_;
+  planning::OctomapBuilder builder_;
   // Of the newest keyframe inserted.
   std::int64_t map_id_ = 0, utime_us_ = 0;
   std::int64_t keyframes_ = 0;
@@ -72,4 +74,4 @@ class OctomapExportService {
   std::string save_error_;
 };
 
-}  // namespace voxlist
+}  // namespace voxlist::services

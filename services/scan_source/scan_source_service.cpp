@@ -6,12 +6,12 @@
 #include <voxlist/pointcloud_t.hpp>
 #include <voxlist/pose_t.hpp>
 
-#include "bus/bus.h"
-#include "bus/convert.h"
-#include "bus/health.h"
-#include "io/file.h"
+#include "voxlist/bus/bus.h"
+#include "voxlist/bus/convert.h"
+#include "voxlist/bus/health.h"
+#include "voxlist/io/files/file.h"
 
-namespace voxlist {
+namespace voxlist::services {
 namespace {
 
 // Between the last scan of a round and the first of the next, when there is but one.
@@ -25,12 +25,13 @@ const ScanSourceConfig& checked(const ScanSourceConfig& config) {
 
 }  // namespace
 
-ScanSourceService::ScanSourceService(Bus& bus, Health& health, const ScanSourceConfig& config)
+ScanSourceService::ScanSourceService(bus::Bus& bus, bus::Health& health,
+                                     const ScanSourceConfig& config)
     : bus_(bus),
       health_(health),
       config_(checked(config)),
       folder_(config.folder),
-      events_(events_of(folder_)) {}
+      events_(io::events_of(folder_)) {}
 
 std::int64_t ScanSourceService::round_us() const {
   const auto scans = static_cast<std::int64_t>(folder_.size());
@@ -42,7 +43,7 @@ std::int64_t ScanSourceService::round_us() const {
 void ScanSourceService::tick(std::int64_t now_us) {
   if (!start_us_) start_us_ = now_us;
   for (bool scan_told = false; !scan_told && is_due(now_us); advance()) {
-    const FolderEvent& event = events_[next_];
+    const io::FolderEvent& event = events_[next_];
     if (event.is_scan) publish_scan(event.number);
     if (!event.is_scan) publish_odometry(event.number);
     scan_told = event.is_scan;
@@ -64,17 +65,18 @@ void ScanSourceService::advance() {
 }
 
 void ScanSourceService::publish_odometry(std::size_t row) {
-  const PoseRow& odometry = folder_.odometry()->rows[row];
-  bus_.publish(kOdometry, to_message(StampedPose3{odometry.utime_us + later_us_, odometry.pose}));
+  const io::PoseRow& odometry = folder_.odometry()->rows[row];
+  bus_.publish(bus::kOdometry,
+               bus::to_message(StampedPose3{odometry.utime_us + later_us_, odometry.pose}));
 }
 
 void ScanSourceService::publish_scan(std::size_t scan) try {
   Cloud cloud = folder_.read(scan);
   cloud.utime_us += later_us_;
   if (const auto truth = folder_.truth(scan))
-    bus_.publish(kTruth, to_message(StampedPose3{cloud.utime_us, *truth}));
-  bus_.publish(kCloud, to_message(cloud, "base", clouds_++));
-} catch (const FileError& error) {
+    bus_.publish(bus::kTruth, bus::to_message(StampedPose3{cloud.utime_us, *truth}));
+  bus_.publish(bus::kCloud, bus::to_message(cloud, "base", clouds_++));
+} catch (const io::FileError& error) {
   ++unreadable_;
   health_.count("unreadable_scans");
   spdlog::warn("{}", error.what());
@@ -84,7 +86,8 @@ void ScanSourceService::say_how_it_went() {
   std::string message = config_.loop ? "" : "all scans are out";
   if (unreadable_ > 0)
     message += (message.empty() ? "" : ", ") + std::to_string(unreadable_) + " could not be read";
-  health_.set_state(unreadable_ > 0 ? Health::State::kWarning : Health::State::kOk, message);
+  health_.set_state(unreadable_ > 0 ? bus::Health::State::kWarning : bus::Health::State::kOk,
+                    message);
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::services

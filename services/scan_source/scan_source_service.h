@@ -5,13 +5,15 @@
 #include <string>
 #include <vector>
 
-#include "io/folder_events.h"
-#include "io/scan_folder.h"
+#include "voxlist/io/files/folder_events.h"
+#include "voxlist/io/scans/scan_folder.h"
 
-namespace voxlist {
-
+namespace voxlist::bus {
 class Bus;
 class Health;
+}  // namespace voxlist::bus
+
+namespace voxlist::services {
 
 /// Settings of the scan source.
 struct ScanSourceConfig {
@@ -34,7 +36,7 @@ class ScanSourceService {
  public:
   /// Looks at the folder; scans are read one by one when their time comes. Throws FileError when
   /// the folder makes no sense, or its odometry is of another time than its scans.
-  ScanSourceService(Bus& bus, Health& health, const ScanSourceConfig& config);
+  ScanSourceService(bus::Bus& bus, bus::Health& health, const ScanSourceConfig& config);
 
   /// Publishes what is due until now, one scan at most. The first event is due at the first call.
   void tick(std::int64_t now_us);
@@ -47,11 +49,11 @@ class ScanSourceService {
   void publish_scan(std::size_t scan);
   void say_how_it_went();
 
-  Bus& bus_;
-  Health& health_;
+  bus::Bus& bus_;
+  bus::Health& health_;
   const ScanSourceConfig config_;
-  const ScanFolder folder_;
-  const std::vector<FolderEvent> events_;
+  const io::ScanFolder folder_;
+  const std::vector<io::FolderEvent> events_;
   std::size_t next_ = 0;
   std::optional<std::int64_t> start_us_;
   std::int64_t later_us_ = 0;  // than in the files: grows with each round
@@ -59,4 +61,4 @@ class ScanSourceService {
   std::int64_t unreadable_ = 0;
 };
 
-}  // namespace voxlist
+}  // namespace voxlist::services

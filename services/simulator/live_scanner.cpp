@@ -1,8 +1,8 @@
 #include "services/simulator/live_scanner.h"
 
-namespace voxlist {
+namespace voxlist::services {
 
-LiveScanner::LiveScanner(const MirrorScanner& scanner, const SimulatorConfig& config,
+LiveScanner::LiveScanner(const simulation::MirrorScanner& scanner, const SimulatorConfig& config,
                          std::int64_t start_utime_us)
     : start_utime_us_(start_utime_us),
       ports_(scanner, config, start_utime_us),
@@ -16,4 +16,4 @@ void LiveScanner::run(const std::stop_token& stop) {
   }
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::services

@@ -7,13 +7,13 @@
 
 #include "services/simulator/scanner_ports.h"
 
-namespace voxlist {
+namespace voxlist::services {
 
 /// Serves the scanner's ports every millisecond, in a thread of its own.
 class LiveScanner {
  public:
   /// The run begins now, which is `start_utime_us`. Throws as ScannerPorts does.
-  LiveScanner(const MirrorScanner& scanner, const SimulatorConfig& config,
+  LiveScanner(const simulation::MirrorScanner& scanner, const SimulatorConfig& config,
               std::int64_t start_utime_us);
 
  private:
@@ -27,4 +27,4 @@ class LiveScanner {
   std::jthread thread_;
 };
 
-}  // namespace voxlist
+}  // namespace voxlist::services

@@ -3,13 +3,13 @@
 #include <cmath>
 #include <vector>
 
-#include "service/run_folder.h"
+#include "voxlist/service/run_folder.h"
 
-namespace voxlist {
+namespace voxlist::services {
 namespace {
 
-Lms200Device::Config device_config(const SimulatorConfig& config) {
-  Lms200Device::Config device;
+simulation::Lms200Device::Config device_config(const SimulatorConfig& config) {
+  simulation::Lms200Device::Config device;
   device.turns_per_second = config.simulation.scanner.turns_per_second;
   device.seed = static_cast<std::uint64_t>(config.simulation.seed);
   return device;
@@ -22,7 +22,7 @@ std::uint32_t controller_us(double run_s) {
 
 }  // namespace
 
-ScannerPorts::ScannerPorts(const MirrorScanner& scanner, const SimulatorConfig& config,
+ScannerPorts::ScannerPorts(const simulation::MirrorScanner& scanner, const SimulatorConfig& config,
                            std::int64_t start_utime_us)
     : scanner_(scanner),
       start_utime_us_(start_utime_us),
@@ -50,7 +50,8 @@ void ScannerPorts::serve_laser(std::int64_t now_us) {
   faults_.apply(static_cast<double>(now_us - start_utime_us_) * 1e-6, device_us, laser_);
   const int baud = laser_port_.baud();
   std::vector<std::uint8_t> bytes;
-  for (const TimedByte& sent : laser_.sent_until(device_us, baud)) bytes.push_back(sent.byte);
+  for (const simulation::TimedByte& sent : laser_.sent_until(device_us, baud))
+    bytes.push_back(sent.byte);
   laser_.receive(device_us, baud, laser_port_.read());
   laser_adapter_.take(bytes);
   laser_port_.write(laser_adapter_.given_until(now_us));
@@ -69,7 +70,7 @@ void ScannerPorts::serve_clock(std::int64_t now_us) {
 }
 
 std::filesystem::path port_link(const std::string& setting, const char* name) {
-  return setting.empty() ? run_folder() / name : std::filesystem::path(setting);
+  return setting.empty() ? service::run_folder() / name : std::filesystem::path(setting);
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::services

@@ -4,14 +4,14 @@
 #include <filesystem>
 #include <string>
 
-#include "serial/pseudo_terminal.h"
 #include "services/simulator/laser_faults.h"
 #include "services/simulator/simulator_config.h"
 #include "services/simulator/usb_adapter.h"
-#include "simulation/lms200_device.h"
-#include "simulation/mirror_scanner.h"
+#include "voxlist/serial/pseudo_terminal.h"
+#include "voxlist/simulation/scanner/lms200_device.h"
+#include "voxlist/simulation/scanner/mirror_scanner.h"
 
-namespace voxlist {
+namespace voxlist::services {
 
 /// The scanner as drivers meet it: an LMS 200 on one pseudo-terminal; on another a microcontroller
 /// that writes a line for each step of the mirror's motor, with the microseconds since it was
@@ -23,7 +23,7 @@ class ScannerPorts {
 
   /// The run, and the laser's power, begins at `start_utime_us`. Throws PortError, and
   /// std::invalid_argument for an unknown fault. The scanner must outlive it.
-  ScannerPorts(const MirrorScanner& scanner, const SimulatorConfig& config,
+  ScannerPorts(const simulation::MirrorScanner& scanner, const SimulatorConfig& config,
                std::int64_t start_utime_us);
 
   /// Does what is due until a time: reads requests, writes what has left the devices. What finds no
@@ -34,17 +34,17 @@ class ScannerPorts {
   void serve_laser(std::int64_t now_us);
   void serve_clock(std::int64_t now_us);
 
-  const MirrorScanner& scanner_;
+  const simulation::MirrorScanner& scanner_;
   const std::int64_t start_utime_us_;
   const std::int64_t latency_us_;
-  PseudoTerminal laser_port_, clock_port_;
+  serial::PseudoTerminal laser_port_, clock_port_;
   UsbAdapter laser_adapter_, clock_adapter_;
   LaserFaults faults_;
-  Lms200Device laser_;
+  simulation::Lms200Device laser_;
   std::int64_t edge_ = 0;  // of the clock, the next
 };
 
 /// Where a port's link is: as the settings say, else of this name in the run folder.
 std::filesystem::path port_link(const std::string& setting, const char* name);
 
-}  // namespace voxlist
+}  // namespace voxlist::services

@@ -2,9 +2,9 @@
 
 #include <string>
 
-#include "simulation/simulation_config.h"
+#include "voxlist/simulation/run/simulation_config.h"
 
-namespace voxlist {
+namespace voxlist::services {
 
 /// A fault of the simulated laser for a time of the run.
 struct LaserFaultConfig {
@@ -22,7 +22,7 @@ struct SimulatorConfig {
   std::string clock_port;
   int usb_latency_ms = 1;
   LaserFaultConfig laser_fault;
-  SimulationConfig simulation;
+  simulation::SimulationConfig simulation;
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -46,4 +46,4 @@ struct SimulatorConfig {
   }
 };
 
-}  // namespace voxlist
+}  // namespace voxlist::services

@@ -9,11 +9,11 @@
 #include <voxlist/pointcloud_t.hpp>
 #include <voxlist/pose_t.hpp>
 
-#include "bus/bus.h"
-#include "bus/convert.h"
-#include "bus/health.h"
+#include "voxlist/bus/bus.h"
+#include "voxlist/bus/convert.h"
+#include "voxlist/bus/health.h"
 
-namespace voxlist {
+namespace voxlist::services {
 namespace {
 
 template <class... Handlers>
@@ -21,11 +21,12 @@ struct Overloaded : Handlers... {
   using Handlers::operator()...;
 };
 
-std::int64_t utime_us(const SimulatedEvent& event) {
-  return std::visit(Overloaded{[](const SimulatedOdometry& e) { return e.measured.utime_us; },
-                               [](const SimulatedTruth& e) { return e.pose.utime_us; },
-                               [](const auto& e) { return e.utime_us; }},
-                    event);
+std::int64_t utime_us(const simulation::SimulatedEvent& event) {
+  return std::visit(
+      Overloaded{[](const simulation::SimulatedOdometry& e) { return e.measured.utime_us; },
+                 [](const simulation::SimulatedTruth& e) { return e.pose.utime_us; },
+                 [](const auto& e) { return e.utime_us; }},
+      event);
 }
 
 bool has_scanner(const SimulatorConfig& config) { return config.output == "scanner"; }
@@ -38,14 +39,15 @@ SimulatorConfig checked(SimulatorConfig config) {
         "speed must be 1: the scanner's ports run in real time. For other speeds: output = "
         "\"cloud\"");
   LaserFaults{config.laser_fault};
-  config.simulation.scans =
-      has_scanner(config) ? SimulationConfig::Scans::kNothing : SimulationConfig::Scans::kClouds;
+  config.simulation.scans = has_scanner(config) ? simulation::SimulationConfig::Scans::kNothing
+                                                : simulation::SimulationConfig::Scans::kClouds;
   return config;
 }
 
 }  // namespace
 
-SimulatorService::SimulatorService(Bus& bus, Health& health, const SimulatorConfig& config)
+SimulatorService::SimulatorService(bus::Bus& bus, bus::Health& health,
+                                   const SimulatorConfig& config)
     : bus_(bus),
       health_(health),
       config_(checked(config)),
@@ -59,7 +61,7 @@ void SimulatorService::tick(std::int64_t now_us) {
   while (next_ && static_cast<double>(utime_us(*next_)) <= run_us) {
     publish(*next_);
     next_ = run_.next();
-    if (!next_) health_.set_state(Health::State::kOk, "the tour is over");
+    if (!next_) health_.set_state(bus::Health::State::kOk, "the tour is over");
   }
   wait_for_next(now_us);
 }
@@ -80,20 +82,22 @@ void SimulatorService::wait_for_next(std::int64_t now_us) const {
   timerfd_settime(timer_.get(), 0, &when, nullptr);
 }
 
-void SimulatorService::publish(const SimulatedEvent& event) {
-  const auto publish_pose = [this](Channel<pose_t> channel, StampedPose2 pose) {
+void SimulatorService::publish(const simulation::SimulatedEvent& event) {
+  const auto publish_pose = [this](bus::Channel<pose_t> channel, StampedPose2 pose) {
     pose.utime_us += *start_us_;
-    bus_.publish(channel, to_message(pose));
+    bus_.publish(channel, bus::to_message(pose));
   };
   const auto publish_cloud = [this](const Cloud& cloud) {
-    pointcloud_t message = to_message(cloud, "base", clouds_++);
+    pointcloud_t message = bus::to_message(cloud, "base", clouds_++);
     message.utime += *start_us_;
-    bus_.publish(kCloud, message);
+    bus_.publish(bus::kCloud, message);
   };
-  std::visit(Overloaded{[&](const SimulatedOdometry& e) { publish_pose(kOdometry, e.measured); },
-                        [&](const SimulatedTruth& e) { publish_pose(kTruth, e.pose); },
-                        publish_cloud, [](const SimulatedClockEdge&) {}, [](const LaserLine&) {}},
-             event);
+  std::visit(
+      Overloaded{
+          [&](const simulation::SimulatedOdometry& e) { publish_pose(bus::kOdometry, e.measured); },
+          [&](const simulation::SimulatedTruth& e) { publish_pose(bus::kTruth, e.pose); },
+          publish_cloud, [](const simulation::SimulatedClockEdge&) {}, [](const LaserLine&) {}},
+      event);
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::services

@@ -5,12 +5,14 @@
 
 #include "services/simulator/live_scanner.h"
 #include "services/simulator/simulator_config.h"
-#include "simulation/simulated_run.h"
+#include "voxlist/simulation/run/simulated_run.h"
 
-namespace voxlist {
-
+namespace voxlist::bus {
 class Bus;
 class Health;
+}  // namespace voxlist::bus
+
+namespace voxlist::services {
 
 /// A robot in a simulated building, as other services see one: ODOMETRY, TRUTH, and a scanner on
 /// its ports or CLOUD.
@@ -18,7 +20,7 @@ class SimulatorService {
  public:
   /// Builds the world. Throws std::invalid_argument when the rooms do not fit into the building, or
   /// settings do not fit together.
-  SimulatorService(Bus& bus, Health& health, const SimulatorConfig& config);
+  SimulatorService(bus::Bus& bus, bus::Health& health, const SimulatorConfig& config);
 
   /// Publishes what has happened until now. The run starts with the first call, which makes the
   /// scanner's ports (throws PortError): its times count from there.
@@ -30,17 +32,17 @@ class SimulatorService {
  private:
   void start(std::int64_t now_us);
   void wait_for_next(std::int64_t now_us) const;
-  void publish(const SimulatedEvent& event);
+  void publish(const simulation::SimulatedEvent& event);
 
-  Bus& bus_;
-  Health& health_;
+  bus::Bus& bus_;
+  bus::Health& health_;
   const SimulatorConfig config_;
-  SimulatedRun run_;
+  simulation::SimulatedRun run_;
   FileDescriptor timer_;
-  std::optional<SimulatedEvent> next_;
+  std::optional<simulation::SimulatedEvent> next_;
   std::optional<std::int64_t> start_us_;
   std::optional<LiveScanner> scanner_;
   std::int32_t clouds_ = 0;
 };
 
-}  // namespace voxlist
+}  // namespace voxlist::services

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace voxlist {
+namespace voxlist::services {
 namespace {
 
 constexpr std::size_t kPacketBytes = 62;
@@ -24,4 +24,4 @@ std::vector<std::uint8_t> UsbAdapter::given_until(std::int64_t utime_us) {
   return bytes;
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::services

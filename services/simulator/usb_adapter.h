@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-namespace voxlist {
+namespace voxlist::services {
 
 /// A USB serial adapter between a device and its host: bytes go on 62 together, or when its timer
 /// goes round, whatever comes first (FTDI's latency timer).
@@ -26,4 +26,4 @@ class UsbAdapter {
   std::deque<std::uint8_t> held_;
 };
 
-}  // namespace voxlist
+}  // namespace voxlist::services

@@ -14,12 +14,12 @@
 #include <stdexcept>
 #include <string>
 
-#include "bench/figures.h"
-#include "bench/test_drive.h"
-#include "bench/test_floor.h"
-#include "matching/localiser.h"
+#include "tests/bench/figures.h"
+#include "tests/bench/test_drive.h"
+#include "tests/bench/test_floor.h"
+#include "voxlist/matching/localisation/localiser.h"
 
-namespace voxlist {
+namespace voxlist::bench {
 namespace {
 
 // A pose that is off by less is the right place.
@@ -30,7 +30,7 @@ bool right(const Pose2& pose, const Pose2& truth) {
 }
 
 // Index of the right mode, or -1.
-int right_mode(const Localisation& result, const Pose2& truth, bool foreign) {
+int right_mode(const matching::Localisation& result, const Pose2& truth, bool foreign) {
   for (std::size_t i = 0; !foreign && i < result.modes.size(); ++i)
     if (right(result.modes[i].T_map_base, truth)) return static_cast<int>(i);
   return -1;
@@ -42,14 +42,14 @@ struct Tally {
       lost = 0, first_right = 0;
   double most_of_wrong = 0.0;
 
-  void add(const Localisation& result, const Pose2& truth, bool foreign) {
+  void add(const matching::Localisation& result, const Pose2& truth, bool foreign) {
     const int listed = right_mode(result, truth, foreign);
     ++asked;
     first_right += listed == 0;
     if (listed != 0) most_of_wrong = std::max(most_of_wrong, result.confidence);
     if (result.tracking()) {
       ++(listed == 0 ? tracking_right : tracking_wrong);
-    } else if (result.state == LocalisationState::kAmbiguous) {
+    } else if (result.state == matching::LocalisationState::kAmbiguous) {
       ++ambiguous;
       ambiguous_listed += listed >= 0;
     } else {
@@ -141,7 +141,7 @@ std::vector<Kind> kinds_of(const Family& family) {
   return kinds;
 }
 
-Building now(const Kind& kind, const TestFloorConfig& config) {
+simulation::Building now(const Kind& kind, const TestFloorConfig& config) {
   if (kind.changed) return later(config);
   const TestFloorConfig there = kind.foreign ? elsewhere(config) : config;
   return make_floor(there.wing, there.wings);
@@ -160,9 +160,9 @@ class Bench {
   void floor(const Family& family, int seed) {
     const TestFloorConfig config = family.floor(seed);
     const TestFloor floor = make_test_floor(config);
-    Localiser localiser(floor.map);
+    matching::Localiser localiser(floor.map);
     for (const Kind& kind : kinds_of(family)) {
-      const Building building = now(kind, config);
+      const simulation::Building building = now(kind, config);
       singles(kind, floor, building, localiser, seed);
       // Those who drive have the scanner with the mirror.
       if (kind.dense) continue;
@@ -189,16 +189,16 @@ class Bench {
   }
 
  private:
-  void singles(const Kind& kind, const TestFloor& floor, const Building& building,
-               Localiser& localiser, int seed) {
-    Random random(4711, static_cast<std::uint64_t>(seed));
+  void singles(const Kind& kind, const TestFloor& floor, const simulation::Building& building,
+               matching::Localiser& localiser, int seed) {
+    simulation::Random random(4711, static_cast<std::uint64_t>(seed));
     for (int i = 0; i < scans_;) {
       const Pose2 truth = free_pose(floor, random);
       if (building.clearance_m({truth.x_m, truth.y_m}, 0.05, 1.0) < 0.35) continue;
       const auto noise = static_cast<std::uint64_t>(1'000'000 + i);
       const Cloud scan = kind.dense ? sphere_scan_at(building, truth, 64'000, kind.people, noise)
                                     : scan_at(building, truth, kind.people, noise);
-      const Localisation result = localiser.locate(scan);
+      const matching::Localisation result = localiser.locate(scan);
       singles_[kind.name].add(result, truth, kind.foreign);
       reliability_.add(result.confidence, right_mode(result, truth, kind.foreign) == 0);
       if (modes_.is_open()) write(kind, seed, i, result, truth);
@@ -206,7 +206,7 @@ class Bench {
     }
   }
 
-  void write(const Kind& kind, int seed, int query, const Localisation& result,
+  void write(const Kind& kind, int seed, int query, const matching::Localisation& result,
              const Pose2& truth) {
     const int listed = right_mode(result, truth, kind.foreign);
     for (std::size_t m = 0; m < result.modes.size(); ++m)
@@ -216,14 +216,14 @@ class Bench {
   }
 
   // Until the robot is sure, or ten scans have not sufficed.
-  void drives(const Kind& kind, const TestFloor& floor, const Building& building,
-              Localiser& localiser, int seed) {
+  void drives(const Kind& kind, const TestFloor& floor, const simulation::Building& building,
+              matching::Localiser& localiser, int seed) {
     for (int i = 0; i < drives_; ++i) {
       const auto way = static_cast<DriveKind>(i % 3);
       const auto drive = drive_through(floor, building, way, kind.people,
                                        static_cast<std::uint64_t>(1000 * seed + i));
       localiser.forget();
-      Localisation result;
+      matching::Localisation result;
       std::size_t step = 0;
       do result = localiser.localise(drive[step].scan, drive[step].T_odom_base);
       while (!result.tracking() && ++step < drive.size());
@@ -234,8 +234,8 @@ class Bench {
 
   // A tracked robot that is carried elsewhere, and is asked two scans later. Its wheels notice
   // nothing.
-  void kidnappings(const Kind& kind, const TestFloor& floor, const Building& building,
-                   Localiser& localiser, int seed) {
+  void kidnappings(const Kind& kind, const TestFloor& floor, const simulation::Building& building,
+                   matching::Localiser& localiser, int seed) {
     if (kind.foreign) return;
     for (int i = 0; i < drives_; ++i) {
       const auto drive_of = [&](int more) {
@@ -252,7 +252,7 @@ class Bench {
       if (step == before.size()) continue;
       const Pose2 T_odom_odom = before[step].T_odom_base * after[0].T_odom_base.inverse();
       localiser.localise(after[0].scan, T_odom_odom * after[0].T_odom_base);
-      const Localisation result =
+      const matching::Localisation result =
           localiser.localise(after[1].scan, T_odom_odom * after[1].T_odom_base);
       kidnapped_[kind.name].add(result, after[1].truth, false);
     }
@@ -270,10 +270,10 @@ void run(Bench& bench, int first_seed, int last_seed) {
 }
 
 }  // namespace
-}  // namespace voxlist
+}  // namespace voxlist::bench
 
 int main(int argc, char** argv) {
-  using namespace voxlist;
+  using namespace voxlist::bench;
   const auto csv = take_csv_option(argc, argv);
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
   // What ctest passes to all benchmarks: one small run.

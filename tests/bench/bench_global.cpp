@@ -13,11 +13,11 @@
 #include <string>
 #include <vector>
 
-#include "bench/figures.h"
-#include "bench/test_floor.h"
-#include "matching/matcher.h"
+#include "tests/bench/figures.h"
+#include "tests/bench/test_floor.h"
+#include "voxlist/matching/engines/matcher.h"
 
-namespace voxlist {
+namespace voxlist::bench {
 namespace {
 
 // Support by which the first mode is ahead of the second when there is no doubt.
@@ -25,7 +25,7 @@ constexpr double kClear = 0.1;
 constexpr double kRight_m = 0.05, kRight_rad = 0.5 * std::numbers::pi / 180.0;
 
 // By how much the first mode's support is ahead.
-double margin(const std::vector<MatchMode>& modes) {
+double margin(const std::vector<matching::MatchMode>& modes) {
   return modes.front().support - (modes.size() > 1 ? std::max(0.0, modes[1].support) : 0.0);
 }
 
@@ -33,7 +33,7 @@ bool is_at(const Pose2& pose, const Pose2& truth) {
   return distance_m(pose, truth) < kRight_m && turn_rad(pose, truth) < kRight_rad;
 }
 
-const MatchMode& most_overlap(const std::vector<MatchMode>& modes) {
+const matching::MatchMode& most_overlap(const std::vector<matching::MatchMode>& modes) {
   return *std::max_element(modes.begin(), modes.end(),
                            [](auto& a, auto& b) { return a.overlap < b.overlap; });
 }
@@ -44,7 +44,7 @@ struct Tally {
       clear_wrong = 0;
   std::vector<double> errors_m, turns_deg, times_ms;
 
-  void add(const Match& match, const Pose2& truth, bool foreign, double ms) {
+  void add(const matching::Match& match, const Pose2& truth, bool foreign, double ms) {
     ++queries;
     times_ms.push_back(ms);
     certified += match.certified && match.complete;
@@ -82,9 +82,9 @@ struct Tally {
   }
 };
 
-void list(const Match& match, const Pose2& truth) {
+void list(const matching::Match& match, const Pose2& truth) {
   if (match.modes.empty()) return;
-  const MatchMode& best = match.modes.front();
+  const matching::MatchMode& best = match.modes.front();
   std::printf("query: off %.3f m, support %.3f, margin %.3f, %zu modes, complete %d\n",
               distance_m(best.pose, truth), best.support, margin(match.modes), match.modes.size(),
               match.complete);
@@ -92,7 +92,7 @@ void list(const Match& match, const Pose2& truth) {
 
 struct Case {
   std::string name;
-  Building building;
+  simulation::Building building;
   bool foreign;
   int people;
 };
@@ -104,8 +104,9 @@ Cloud scan_in(const TestFloor& floor, const Case& test, const Pose2& pose, std::
 }
 
 // Poses leave the robot room in the building as it was mapped, and as it is.
-Tally run(const TestFloor& floor, const Case& test, Matcher& matcher, int queries, bool listed) {
-  Random random(4711, static_cast<std::uint64_t>(queries));
+Tally run(const TestFloor& floor, const Case& test, matching::Matcher& matcher, int queries,
+          bool listed) {
+  simulation::Random random(4711, static_cast<std::uint64_t>(queries));
   Tally tally;
   tally.scene = floor.name;
   tally.name = test.name;
@@ -115,7 +116,7 @@ Tally run(const TestFloor& floor, const Case& test, Matcher& matcher, int querie
     const auto seed = static_cast<std::uint64_t>(1'000'000 + tally.queries);
     const Cloud scan = scan_in(floor, test, truth, seed);
     const double start_ms = cpu_ms();
-    const Match match = matcher.match(scan, std::nullopt);
+    const matching::Match match = matcher.match(scan, std::nullopt);
     tally.add(match, truth, test.foreign, cpu_ms() - start_ms);
     if (listed) list(match, truth);
   }
@@ -129,7 +130,7 @@ std::vector<Figure> run_floor(const TestFloorConfig& config, int queries, bool l
       {"as mapped", floor.building, false, 0},
       {"changed, three people", later(config), false, 3},
       {"another building", make_floor(elsewhere(config).wing, config.wings), true, 0}};
-  const auto matcher = make_matcher(floor.map, {});
+  const auto matcher = matching::make_matcher(floor.map, {});
   const double start_ms = cpu_ms();
   matcher->match(scan_in(floor, cases[0], {}, 1), std::nullopt);
   std::printf("%s: %zu voxels, first query with preparation %.0f ms\n", floor.name.c_str(),
@@ -151,10 +152,10 @@ TestFloorConfig floor_named(const std::string& name, int seed) {
 }
 
 }  // namespace
-}  // namespace voxlist
+}  // namespace voxlist::bench
 
 int main(int argc, char** argv) {
-  using namespace voxlist;
+  using namespace voxlist::bench;
   const auto csv = take_csv_option(argc, argv);
   // What ctest passes to all benchmarks: one small run.
   const bool brief = argc > 1 && std::string(argv[1]).starts_with("--");

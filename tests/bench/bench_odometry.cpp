@@ -11,21 +11,21 @@
 #include <string>
 #include <vector>
 
-#include "bench/figures.h"
-#include "bench/test_floor.h"
-#include "mapping/map_builder.h"
-#include "matching/localiser.h"
+#include "tests/bench/figures.h"
+#include "tests/bench/test_floor.h"
+#include "voxlist/mapping/map_builder.h"
+#include "voxlist/matching/localisation/localiser.h"
 
-namespace voxlist {
+namespace voxlist::bench {
 namespace {
 
 constexpr double kStep_m = 0.4, kMostTurn_rad = 24.0 * std::numbers::pi / 180.0;
 
 // Steps towards one goal after another, turning as sharply as allowed: through the first door into
 // its room, back, and along the corridor into the next, until `length_m` are driven.
-std::vector<Pose2> free_path(const Building& building, double length_m) {
+std::vector<Pose2> free_path(const simulation::Building& building, double length_m) {
   std::vector<Eigen::Vector2d> goals;
-  for (const Room& room : building.rooms) {
+  for (const simulation::Room& room : building.rooms) {
     const Eigen::Vector2d corridor(room.door.x(), 0.0);
     for (const Eigen::Vector2d& goal : {corridor, room.door, room.centre(), room.door, corridor})
       goals.push_back(goal);
@@ -51,11 +51,11 @@ std::vector<Pose2> free_path(const Building& building, double length_m) {
   return path;
 }
 
-std::vector<Figure> run(const BuildingConfig& config, double length_m) {
-  const Building building = make_building(config);
+std::vector<Figure> run(const simulation::BuildingConfig& config, double length_m) {
+  const simulation::Building building = simulation::make_building(config);
   const std::vector<Pose2> path = free_path(building, length_m);
-  MapBuilder map;
-  Localiser localiser(map.map());
+  mapping::MapBuilder map;
+  matching::Localiser localiser(map.map());
   std::vector<double> match_ms, map_ms;
   int lost = 0;
   double worst_m = 0.0, end_m = 0.0, end_rad = 0.0;
@@ -63,7 +63,7 @@ std::vector<Figure> run(const BuildingConfig& config, double length_m) {
     Cloud scan = scan_at(building, path[i], 0, 100 + i);
     scan.utime_us = static_cast<std::int64_t>(i) * 1'000'000;
     double start_ms = cpu_ms();
-    const Localisation found = localiser.localise(scan);
+    const matching::Localisation found = localiser.localise(scan);
     match_ms.push_back(cpu_ms() - start_ms);
     if (!found.tracking()) {
       ++lost;
@@ -103,10 +103,10 @@ std::vector<Figure> run(const BuildingConfig& config, double length_m) {
 }
 
 }  // namespace
-}  // namespace voxlist
+}  // namespace voxlist::bench
 
 int main(int argc, char** argv) {
-  using namespace voxlist;
+  using namespace voxlist::bench;
   const auto csv = take_csv_option(argc, argv);
   // What ctest passes to all benchmarks: one small run.
   const bool brief = argc > 1 && std::string(argv[1]).starts_with("--");
@@ -115,7 +115,7 @@ int main(int argc, char** argv) {
   const int seeds = brief ? 1 : argc > 2 ? std::atoi(argv[2]) : 5;
   std::vector<Figure> figures;
   for (int seed = first; seed < first + seeds; ++seed) {
-    BuildingConfig config;
+    voxlist::simulation::BuildingConfig config;
     config.seed = seed;
     const auto measured = run(config, brief ? 3.0 : 24.0);
     figures.insert(figures.end(), measured.begin(), measured.end());

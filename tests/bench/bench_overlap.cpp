@@ -5,15 +5,15 @@
 #include <cstdint>
 #include <unordered_set>
 
-#include "bench/report.h"
-#include "bench/scene.h"
-#include "bench/test_floor.h"
-#include "matching/instruction_sets.h"
-#include "matching/overlap.h"
-#include "matching/overlap_rows.h"
-#include "voxels/occupancy_list.h"
+#include "tests/bench/report.h"
+#include "tests/bench/scene.h"
+#include "tests/bench/test_floor.h"
+#include "tests/matching/counting/instruction_sets.h"
+#include "tests/matching/counting/overlap_rows.h"
+#include "voxlist/matching/paper/overlap.h"
+#include "voxlist/voxels/occupancy_list.h"
 
-namespace voxlist {
+namespace voxlist::bench {
 namespace {
 
 struct Hash {
@@ -33,8 +33,8 @@ struct Inputs {
   std::vector<Voxel> scan;
   VoxelMap map;
   std::unordered_set<Voxel, Hash> set;
-  RowMap rows;
-  TranslationBlock block;
+  matching::RowMap rows;
+  matching::TranslationBlock block;
 
   std::size_t poses() const { return static_cast<std::size_t>(block.columns * block.rows); }
 };
@@ -56,26 +56,26 @@ std::vector<Voxel> voxels_of(const std::vector<Eigen::Vector3f>& points_base,
 }
 
 // The box of what a block of translations reaches.
-RowMap rows_for(const VoxelMap& map, const std::vector<Voxel>& scan,
-                const TranslationBlock& block) {
+matching::RowMap rows_for(const VoxelMap& map, const std::vector<Voxel>& scan,
+                          const matching::TranslationBlock& block) {
   Voxel low = scan.front(), high = low;
   for (const Voxel& v : scan) {
     low = {std::min(low.x, v.x), std::min(low.y, v.y), std::min(low.z, v.z)};
     high = {std::max(high.x, v.x), std::max(high.y, v.y), std::max(high.z, v.z)};
   }
-  return RowMap(
+  return matching::RowMap(
       map, {low.x + block.first.x, low.y + block.first.y, low.z},
       {high.x + block.first.x + block.columns, high.y + block.first.y + block.rows, high.z});
 }
 
 Inputs make_inputs(const std::string& name, const VoxelMap& finest, int factor,
                    const std::vector<Eigen::Vector3f>& points, const Pose2& truth,
-                   const TranslationBlock& block) {
+                   const matching::TranslationBlock& block) {
   VoxelMap map = coarser(finest, factor);
   std::unordered_set<Voxel, Hash> set;
   map.for_each_voxel([&](const Voxel& v) { set.insert(v); });
   std::vector<Voxel> scan = voxels_of(points, truth, map.resolution_m());
-  RowMap rows = rows_for(map, scan, block);
+  matching::RowMap rows = rows_for(map, scan, block);
   return {name, std::move(scan), std::move(map), std::move(set), std::move(rows), block};
 }
 
@@ -88,7 +88,7 @@ const Inputs& coarse() {
 const Inputs& fine() {
   static const Inputs made = [] {
     const TestFloor floor = make_test_floor(floor_60_40(1));
-    Random random(1);
+    simulation::Random random(1);
     const Pose2 truth = free_pose(floor, random);
     const Cloud scan = scan_at(floor.building, truth, 0, 1);
     return make_inputs(floor.name + ", 0.04 m", floor.map.occupied, 2, scan.points, truth,
@@ -99,7 +99,7 @@ const Inputs& fine() {
 
 // Calls count(translation) for each of the block.
 template <class Count>
-void for_each_translation(const TranslationBlock& block, Counts& counts, Count&& count) {
+void for_each_translation(const matching::TranslationBlock& block, Counts& counts, Count&& count) {
   std::size_t at = 0;
   for (std::int32_t j = 0; j < block.rows; ++j)
     for (std::int32_t i = 0; i < block.columns; ++i)
@@ -117,7 +117,7 @@ void by_hash_set(const Inputs& in, Counts& counts) {
 
 void by_voxel_map(const Inputs& in, Counts& counts) {
   for_each_translation(in.block, counts,
-                       [&in](const Voxel& t) { return overlap(in.scan, in.map, t); });
+                       [&in](const Voxel& t) { return matching::overlap(in.scan, in.map, t); });
 }
 
 template <class Kernel>
@@ -145,7 +145,7 @@ void add_one(const std::string& name, const Inputs& (*inputs)(), Kernel kernel) 
 void add_scene(const std::string& scene_name, const Inputs& (*inputs)()) {
   add_one(scene_name + "hash_set", inputs, by_hash_set);
   add_one(scene_name + "voxel_map", inputs, by_voxel_map);
-  for (const Instructions instructions : instruction_sets()) {
+  for (const matching::Instructions instructions : matching::instruction_sets()) {
     const auto by_rows = [instructions](const Inputs& in, Counts& counts) {
       overlap_rows(in.rows, in.scan, in.block, instructions, counts);
     };
@@ -167,8 +167,8 @@ void compare(Report& report) {
 }
 
 }  // namespace
-}  // namespace voxlist
+}  // namespace voxlist::bench
 
 int main(int argc, char** argv) {
-  return voxlist::run_benchmarks(argc, argv, voxlist::add, voxlist::compare);
+  return voxlist::bench::run_benchmarks(argc, argv, voxlist::bench::add, voxlist::bench::compare);
 }

@@ -3,12 +3,12 @@
 #include <utility>
 #include <vector>
 
-#include "bench/report.h"
-#include "bench/scene.h"
-#include "matching/particle_filter.h"
-#include "matching/pose_window.h"
+#include "tests/bench/report.h"
+#include "tests/bench/scene.h"
+#include "voxlist/matching/paper/particle_filter.h"
+#include "voxlist/matching/search/pose_window.h"
 
-namespace voxlist {
+namespace voxlist::bench {
 namespace {
 
 // "In this manner an order of 10,000 particles per second can be assessed on a standard 2 GHz
@@ -16,43 +16,43 @@ namespace {
 constexpr double kPaperParticlesPerSecond = 10'000.0;
 
 // As many parents as the filter's default bound lets through.
-constexpr ParticleFilterConfig kConfig;
-constexpr std::size_t kMaxParents = kConfig.max_particles / kChildren;
+constexpr matching::ParticleFilterConfig kConfig;
+constexpr std::size_t kMaxParents = kConfig.max_particles / matching::kChildren;
 
-const ParticleFilter& filter() {
-  static const ParticleFilter made(scene().map, kConfig);
+const matching::ParticleFilter& filter() {
+  static const matching::ParticleFilter made(scene().map, kConfig);
   return made;
 }
 
 // The filter stopped before one level.
 struct Level {
-  PoseLattice lattice;
-  ParticleSet particles;
+  matching::PoseLattice lattice;
+  matching::ParticleSet particles;
   const VoxelMap& map;
 
   // Weighs the particles and makes those of the level below.
-  ParticleSet step(Weighing& weighing) const {
-    ParticleSet next = particles;
-    weighing = update_weights(next, lattice, map, scene().scan);
-    prune(next, kConfig.prune_share, weighing.max_weight);
-    keep_heaviest(next, kMaxParents);
-    return resample(next, lattice.finer());
+  matching::ParticleSet step(matching::Weighing& weighing) const {
+    matching::ParticleSet next = particles;
+    weighing = matching::update_weights(next, lattice, map, scene().scan);
+    matching::prune(next, kConfig.prune_share, weighing.max_weight);
+    matching::keep_heaviest(next, kMaxParents);
+    return matching::resample(next, lattice.finer());
   }
 };
 
 // Levels are made when they are first asked for.
 class Levels {
  public:
-  explicit Levels(const PoseWindow& window) {
-    const PoseLattice top(filter().maps().front().resolution_m(),
-                          horizontal_radius_m(scene().scan));
-    made_.push_back({top, uniform_poses(top, window), filter().maps().front()});
+  explicit Levels(const matching::PoseWindow& window) {
+    const matching::PoseLattice top(filter().maps().front().resolution_m(),
+                                    matching::horizontal_radius_m(scene().scan));
+    made_.push_back({top, matching::uniform_poses(top, window), filter().maps().front()});
   }
 
   const Level& at(std::size_t index) {
     while (made_.size() <= index) {
-      Weighing weighing;
-      ParticleSet next = made_.back().step(weighing);
+      matching::Weighing weighing;
+      matching::ParticleSet next = made_.back().step(weighing);
       made_.push_back(
           {made_.back().lattice.finer(), std::move(next), filter().maps()[made_.size()]});
     }
@@ -65,7 +65,7 @@ class Levels {
 
 // The whole map, as when the robot is lost, and the surroundings of a last pose, as when it tracks.
 Levels& global() {
-  static Levels made(whole_map(scene().map));
+  static Levels made(matching::whole_map(scene().map));
   return made;
 }
 
@@ -76,7 +76,7 @@ Levels& local() {
 
 void run(benchmark::State& state, const Level& level) {
   state.SetLabel(scene().name);
-  Weighing weighing;
+  matching::Weighing weighing;
   for (auto _ : state) benchmark::DoNotOptimize(level.step(weighing));
   const auto particles = static_cast<double>(level.particles.size());
   state.counters["particles"] = particles;
@@ -111,8 +111,8 @@ void compare(Report& report) {
 }
 
 }  // namespace
-}  // namespace voxlist
+}  // namespace voxlist::bench
 
 int main(int argc, char** argv) {
-  return voxlist::run_benchmarks(argc, argv, voxlist::add, voxlist::compare);
+  return voxlist::bench::run_benchmarks(argc, argv, voxlist::bench::add, voxlist::bench::compare);
 }

@@ -15,14 +15,14 @@
 #include <voxlist/pointcloud_t.hpp>
 #include <voxlist/pose_t.hpp>
 
-#include "bench/report.h"
-#include "bus/bus.h"
-#include "bus/convert.h"
-#include "bus/health.h"
-#include "scanner/cloud_assembler.h"
 #include "services/cloud_assembler/cloud_assembler_service.h"
+#include "tests/bench/report.h"
+#include "voxlist/bus/bus.h"
+#include "voxlist/bus/convert.h"
+#include "voxlist/bus/health.h"
+#include "voxlist/scanner/sweep/cloud_assembler.h"
 
-namespace voxlist {
+namespace voxlist::bench {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -85,7 +85,7 @@ void report_latencies(benchmark::State& state, std::vector<double> latencies_s) 
 }
 
 void run_assembler(benchmark::State& state) {
-  CloudAssembler assembler({});
+  scanner::CloudAssembler assembler({});
   std::int64_t index = 0;
   std::vector<double> latencies_s;
   const auto add_line = [&] {
@@ -93,7 +93,7 @@ void run_assembler(benchmark::State& state) {
     assembler.add_mirror(mirror(index));
     LaserLine next = line(index++);
     const auto start = Clock::now();
-    const Assembly made = assembler.add_line(std::move(next));
+    const scanner::Assembly made = assembler.add_line(std::move(next));
     if (!made.clouds.empty()) latencies_s.push_back(seconds_since(start));
   };
   for (int i = 0; i < kWarmUpLines; ++i) add_line();
@@ -107,13 +107,13 @@ void run_assembler(benchmark::State& state) {
 // The service: on the given bus, or over a network with a bus and a thread of its own.
 class Served {
  public:
-  Served(Bus& bus, const std::string& url) {
+  Served(bus::Bus& bus, const std::string& url) {
     if (url.starts_with("memq")) {
-      service_.emplace(bus, health_, CloudAssemblerConfig{});
+      service_.emplace(bus, health_, scanner::CloudAssemblerConfig{});
       return;
     }
-    own_bus_.emplace(BusOptions{.url = url, .prefix = ""});
-    service_.emplace(*own_bus_, health_, CloudAssemblerConfig{});
+    own_bus_.emplace(bus::BusOptions{.url = url, .prefix = ""});
+    service_.emplace(*own_bus_, health_, scanner::CloudAssemblerConfig{});
     thread_ = std::thread([this] {
       while (!stop_) own_bus_->handle(std::chrono::milliseconds(20));
     });
@@ -124,9 +124,9 @@ class Served {
   }
 
  private:
-  Health health_{"cloud_assembler"};
-  std::optional<Bus> own_bus_;
-  std::optional<CloudAssemblerService> service_;
+  bus::Health health_{"cloud_assembler"};
+  std::optional<bus::Bus> own_bus_;
+  std::optional<services::CloudAssemblerService> service_;
   std::thread thread_;
   std::atomic<bool> stop_ = false;
 };
@@ -138,17 +138,17 @@ class Stopwatch {
       : bus_({.url = url, .prefix = ""}),
         pace_(url.starts_with("memq") ? std::chrono::milliseconds(0) : kPace),
         served_(bus_, url) {
-    bus_.subscribe(kCloud, [this](const pointcloud_t& m) { note(m, clouds_s); });
-    bus_.subscribe(kCloudSlice, [this](const pointcloud_t& m) { note(m, slices_s); });
+    bus_.subscribe(bus::kCloud, [this](const pointcloud_t& m) { note(m, clouds_s); });
+    bus_.subscribe(bus::kCloudSlice, [this](const pointcloud_t& m) { note(m, slices_s); });
   }
 
   void play(int lines) {
     for (int i = 0; i < lines; ++i, ++index_) {
-      bus_.publish(kOdometry, to_message(odometry(index_)));
-      const planar_lidar_t message = to_message(line(index_));
+      bus_.publish(bus::kOdometry, bus::to_message(odometry(index_)));
+      const planar_lidar_t message = bus::to_message(line(index_));
       sent_[line_utime_us(index_) + std::llround(kLaserTurn_us / 2.0)] = Clock::now();
-      bus_.publish(kLaser, message);
-      bus_.publish(kMirror, to_message(mirror(index_)));
+      bus_.publish(bus::kLaser, message);
+      bus_.publish(bus::kMirror, bus::to_message(mirror(index_)));
       const auto until = Clock::now() + pace_;
       do {
         bus_.handle(std::chrono::milliseconds(pace_.count() > 0 ? 1 : 0));
@@ -165,7 +165,7 @@ class Stopwatch {
     if (sent != sent_.end()) latencies_s.push_back(seconds_since(sent->second));
   }
 
-  Bus bus_;
+  bus::Bus bus_;
   std::chrono::milliseconds pace_;
   std::map<std::int64_t, Clock::time_point> sent_;
   std::int64_t index_ = 0;
@@ -204,8 +204,8 @@ void compare(Report& report) {
 }
 
 }  // namespace
-}  // namespace voxlist
+}  // namespace voxlist::bench
 
 int main(int argc, char** argv) {
-  return voxlist::run_benchmarks(argc, argv, voxlist::add, voxlist::compare);
+  return voxlist::bench::run_benchmarks(argc, argv, voxlist::bench::add, voxlist::bench::compare);
 }

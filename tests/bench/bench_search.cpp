@@ -16,12 +16,12 @@
 #include <map>
 #include <numbers>
 
-#include "bench/figures.h"
-#include "bench/test_floor.h"
-#include "matching/matcher.h"
-#include "matching/particle_filter.h"
+#include "tests/bench/figures.h"
+#include "tests/bench/test_floor.h"
+#include "voxlist/matching/engines/matcher.h"
+#include "voxlist/matching/paper/particle_filter.h"
 
-namespace voxlist {
+namespace voxlist::bench {
 namespace {
 
 constexpr int kFinalFactor = 2;  // 0.04 m
@@ -42,17 +42,18 @@ Answer answer(double seconds, const Pose2* pose, const Pose2& truth) {
   return {seconds, distance_m(*pose, truth), turn_rad(*pose, truth)};
 }
 
-Answer ask_ours(Matcher& matcher, const Cloud& scan, const Pose2& truth) {
+Answer ask_ours(matching::Matcher& matcher, const Cloud& scan, const Pose2& truth) {
   const double start = cpu_s();
-  const Match match = matcher.match(scan, std::nullopt);
+  const matching::Match match = matcher.match(scan, std::nullopt);
   return answer(cpu_s() - start, match.modes.empty() ? nullptr : &match.modes.front().pose, truth);
 }
 
 Answer ask_filter(const TestFloor& floor, const Cloud& scan, const Pose2& truth) {
-  static const ParticleFilter filter(floor.map.occupied, {.final_factor = kFinalFactor});
+  static const matching::ParticleFilter filter(floor.map.occupied, {.final_factor = kFinalFactor});
   const Eigen::Vector2d middle = (floor.low + floor.high) / 2.0,
                         half = (floor.high - floor.low) / 2.0;
-  const PoseWindow everywhere{{middle.x(), middle.y(), 0.0}, half.x(), half.y(), std::numbers::pi};
+  const matching::PoseWindow everywhere{
+      {middle.x(), middle.y(), 0.0}, half.x(), half.y(), std::numbers::pi};
   const double start = cpu_s();
   const auto found = filter.localise(scan.points, everywhere);
   return answer(cpu_s() - start, found.particles.empty() ? nullptr : &found.particles.front().pose,
@@ -109,9 +110,9 @@ void print(const char* name, const Answer& row) {
 
 std::vector<Figure> run(const TestFloorConfig& config, int queries, FilterLog log) {
   const TestFloor floor = make_test_floor(config);
-  const auto matcher = make_matcher(floor.map, {});
+  const auto matcher = matching::make_matcher(floor.map, {});
   matcher->match(scan_at(floor.building, {}, 0, 1), std::nullopt);  // makes the map ready
-  Random random(4711);
+  simulation::Random random(4711);
   Tally ours, filter;
   for (int query = 0; query < queries; ++query) {
     const Pose2 truth = free_pose(floor, random);
@@ -142,10 +143,10 @@ std::vector<Figure> run(const TestFloorConfig& config, int queries, FilterLog lo
 }
 
 }  // namespace
-}  // namespace voxlist
+}  // namespace voxlist::bench
 
 int main(int argc, char** argv) {
-  using namespace voxlist;
+  using namespace voxlist::bench;
   const auto csv = take_csv_option(argc, argv);
   // What ctest passes to all benchmarks: one small run.
   const bool brief = argc > 1 && std::strncmp(argv[1], "--", 2) == 0;

@@ -13,11 +13,11 @@
 #include <string>
 #include <vector>
 
-#include "bench/figures.h"
-#include "bench/test_floor.h"
-#include "matching/matcher.h"
+#include "tests/bench/figures.h"
+#include "tests/bench/test_floor.h"
+#include "voxlist/matching/engines/matcher.h"
 
-namespace voxlist {
+namespace voxlist::bench {
 namespace {
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
@@ -31,12 +31,12 @@ struct Tally {
   int queries = 0, found = 0, certified = 0;
   std::vector<double> errors_m, turns_rad, normalised, times_ms;
 
-  void add(const Match& match, const Pose2& truth, double ms) {
+  void add(const matching::Match& match, const Pose2& truth, double ms) {
     ++queries;
     times_ms.push_back(ms);
     certified += match.certified;
     if (match.modes.empty()) return;
-    const MatchMode& best = match.modes.front();
+    const matching::MatchMode& best = match.modes.front();
     const Eigen::Vector3d off(best.pose.x_m - truth.x_m, best.pose.y_m - truth.y_m,
                               wrap_angle(best.pose.yaw_rad - truth.yaw_rad));
     found += distance_m(best.pose, truth) < kFound_m;
@@ -80,9 +80,9 @@ struct Case {
   int people;
 };
 
-std::vector<Figure> run(const Case& test, const TestFloor& floor, const Building& now,
-                        Matcher& matcher, int queries) {
-  Random random(4711, static_cast<std::uint64_t>(queries));
+std::vector<Figure> run(const Case& test, const TestFloor& floor, const simulation::Building& now,
+                        matching::Matcher& matcher, int queries) {
+  simulation::Random random(4711, static_cast<std::uint64_t>(queries));
   Tally tally;
   tally.scene = floor.name;
   tally.name = test.name;
@@ -97,10 +97,10 @@ std::vector<Figure> run(const Case& test, const TestFloor& floor, const Building
                           truth.y_m + test.off_m * std::sin(bearing),
                           wrap_angle(truth.yaw_rad + turn)};
     // A tracked scan finds the map ready: the one before was taken near by.
-    const PoseWindow window{predicted, test.half_m, test.half_m, test.half_rad};
+    const matching::PoseWindow window{predicted, test.half_m, test.half_m, test.half_rad};
     matcher.match(scan_at(now, truth, 0, seed + 500'000), window);
     const double start_ms = cpu_ms();
-    const Match match = matcher.match(scan, window);
+    const matching::Match match = matcher.match(scan, window);
     tally.add(match, truth, cpu_ms() - start_ms);
   }
   print("  " + tally.name, tally.figures());
@@ -114,12 +114,12 @@ constexpr Case kFarOff{"off 1 m, 90 deg", 1.0, std::numbers::pi / 2.0, 1.2, std:
 std::vector<Figure> run_floor(const TestFloorConfig& config, std::span<const Case> tests,
                               int queries) {
   const TestFloor floor = make_test_floor(config);
-  const Building changed = later(config);
-  const auto matcher = make_matcher(floor.map, {});
+  const simulation::Building changed = later(config);
+  const auto matcher = matching::make_matcher(floor.map, {});
   std::printf("%s: %zu voxels\n", floor.name.c_str(), floor.map.occupied.size());
   std::vector<Figure> figures;
   for (const Case& test : tests) {
-    const Building& now = test.people > 0 ? changed : floor.building;
+    const simulation::Building& now = test.people > 0 ? changed : floor.building;
     const auto more = run(test, floor, now, *matcher, queries);
     figures.insert(figures.end(), more.begin(), more.end());
   }
@@ -127,10 +127,10 @@ std::vector<Figure> run_floor(const TestFloorConfig& config, std::span<const Cas
 }
 
 }  // namespace
-}  // namespace voxlist
+}  // namespace voxlist::bench
 
 int main(int argc, char** argv) {
-  using namespace voxlist;
+  using namespace voxlist::bench;
   const auto csv = take_csv_option(argc, argv);
   // What ctest passes to all benchmarks: one small run.
   const bool brief = argc > 1 && std::string(argv[1]).starts_with("--");

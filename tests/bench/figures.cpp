@@ -1,4 +1,4 @@
-#include "bench/figures.h"
+#include "tests/bench/figures.h"
 
 #include <time.h>
 
@@ -12,7 +12,7 @@
 #include <string_view>
 #include <thread>
 
-namespace voxlist {
+namespace voxlist::bench {
 namespace {
 
 std::string commit() {
@@ -86,4 +86,4 @@ void append_csv(const std::string& file, const std::string& program,
   if (!out.flush()) throw std::runtime_error("cannot write " + file);
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::bench

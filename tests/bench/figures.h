@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace voxlist {
+namespace voxlist::bench {
 
 /// One measured number.
 struct Figure {
@@ -34,4 +34,4 @@ std::string machine();
 void append_csv(const std::string& file, const std::string& program,
                 const std::vector<Figure>& figures);
 
-}  // namespace voxlist
+}  // namespace voxlist::bench

@@ -1,4 +1,4 @@
-#include "bench/report.h"
+#include "tests/bench/report.h"
 
 #include <unistd.h>
 
@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <iostream>
 
-namespace voxlist {
+namespace voxlist::bench {
 
 Report::Report() : ConsoleReporter(isatty(STDOUT_FILENO) ? OO_Defaults : OO_Tabular) {}
 
@@ -59,4 +59,4 @@ int run_benchmarks(int argc, char** argv, void (*add)(), void (*compare)(Report&
   return 0;
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::bench

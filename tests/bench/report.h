@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "bench/figures.h"
+#include "tests/bench/figures.h"
 
-namespace voxlist {
+namespace voxlist::bench {
 
 /// Shows results on the terminal as Google Benchmark does, and keeps them for ratios and the CSV
 /// file. A benchmark's label is its scene.
@@ -39,4 +39,4 @@ class Report : public benchmark::ConsoleReporter {
 /// the benchmarks, they run, and `compare` prints ratios. Returns the exit code.
 int run_benchmarks(int argc, char** argv, void (*add)(), void (*compare)(Report&));
 
-}  // namespace voxlist
+}  // namespace voxlist::bench

@@ -1,13 +1,13 @@
-#include "bench/scene.h"
+#include "tests/bench/scene.h"
 
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 
-#include "io/scan_folder.h"
-#include "matching/synthetic_room.h"
+#include "tests/matching/synthetic_room.h"
+#include "voxlist/io/scans/scan_folder.h"
 
-namespace voxlist {
+namespace voxlist::bench {
 namespace {
 
 constexpr std::size_t kQueryScan = 45;
@@ -18,7 +18,7 @@ std::filesystem::path hall_folder() {
 }
 
 Scene hall(const std::filesystem::path& folder) {
-  const ScanFolder scans(folder);
+  const io::ScanFolder scans(folder);
   Scene result{"hall", VoxelMap(kFinestResolution_m), scans.read(kQueryScan).points,
                to_pose2(scans.truth(kQueryScan).value())};
   for (std::size_t i = 0; i < scans.size(); i += 2) {
@@ -34,7 +34,7 @@ Scene hall(const std::filesystem::path& folder) {
 }
 
 Scene room() {
-  SyntheticRoom made = synthetic_room(12.0, 9.0, {4.3, 3.7, 0.9}, 5000, 1);
+  matching::SyntheticRoom made = matching::synthetic_room(12.0, 9.0, {4.3, 3.7, 0.9}, 5000, 1);
   return {"synthetic room", std::move(made.map), std::move(made.scan), made.truth};
 }
 
@@ -53,4 +53,4 @@ const Scene& scene() {
   return loaded;
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::bench

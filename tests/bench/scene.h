@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "geometry/pose.h"
-#include "voxels/voxel_map.h"
+#include "voxlist/geometry/pose.h"
+#include "voxlist/voxels/voxel_map.h"
 
-namespace voxlist {
+namespace voxlist::bench {
 
 /// What the benchmarks work on: a map at 0.02 m, and a scan that is not part of it.
 struct Scene {
@@ -23,4 +23,4 @@ struct Scene {
 /// ../shared/data beside the sources. Otherwise a seeded synthetic room.
 const Scene& scene();
 
-}  // namespace voxlist
+}  // namespace voxlist::bench

@@ -1,13 +1,13 @@
-#include "bench/test_drive.h"
+#include "tests/bench/test_drive.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "simulation/floor_plan.h"
-#include "simulation/robot.h"
+#include "voxlist/simulation/building/floor_plan.h"
+#include "voxlist/simulation/world/robot.h"
 
-namespace voxlist {
+namespace voxlist::bench {
 namespace {
 
 using Eigen::Vector2d;
@@ -37,7 +37,7 @@ double distance_m(const Path& path, const Vector2d& point) {
   return nearest;
 }
 
-bool is_free(const Building& building, const Vector2d& from, const Vector2d& to) {
+bool is_free(const simulation::Building& building, const Vector2d& from, const Vector2d& to) {
   const int steps = 1 + static_cast<int>((to - from).norm() / 0.1);
   for (int i = 0; i <= steps; ++i)
     if (building.clearance_m(from + (to - from) * i / steps, 0.02, 1.0) < kClear_m) return false;
@@ -47,7 +47,7 @@ bool is_free(const Building& building, const Vector2d& from, const Vector2d& to)
 // The middle lines of rooms, doors and corridors are free in every building.
 class Ways {
  public:
-  Ways(const TestFloor& floor, const Building& now, Random& random)
+  Ways(const TestFloor& floor, const simulation::Building& now, simulation::Random& random)
       : wing_(floor.config.wing), building_(now), random_(random) {
     const std::size_t room = random.bits() % now.rooms.size();
     room_ = now.rooms[room];
@@ -69,10 +69,10 @@ class Ways {
 
  private:
   double corridor_low() const { return 0.0; }
-  double corridor_high() const { return wing_.length_m - 1.0 - kWayHalfWidth_m; }
+  double corridor_high() const { return wing_.length_m - 1.0 - simulation::kWayHalfWidth_m; }
   Vector2d inside_the_door() const {
-    return {room_.door.x(),
-            room_.door.y() + std::copysign(kWayHalfWidth_m, room_.door.y() - corridor_y_)};
+    return {room_.door.x(), room_.door.y() + std::copysign(simulation::kWayHalfWidth_m,
+                                                           room_.door.y() - corridor_y_)};
   }
 
   Path along_the_corridor() {
@@ -109,16 +109,17 @@ class Ways {
     return path;
   }
 
-  const BuildingConfig& wing_;
-  const Building& building_;
-  Random& random_;
-  Room room_;
+  const simulation::BuildingConfig& wing_;
+  const simulation::Building& building_;
+  simulation::Random& random_;
+  simulation::Room room_;
   double corridor_y_;
 };
 
-std::vector<Trajectory> people_beside(const Path& path, int count, Random& random) {
+std::vector<simulation::Trajectory> people_beside(const Path& path, int count,
+                                                  simulation::Random& random) {
   constexpr int kTries = 1000;
-  std::vector<Trajectory> people;
+  std::vector<simulation::Trajectory> people;
   for (int i = 0; i < kTries && std::ssize(people) < count; ++i) {
     const Vector2d& from = path[random.bits() % path.size()];
     const double x = from.x() + random.uniform(-3.0, 3.0), y = from.y() + random.uniform(-3.0, 3.0);
@@ -130,23 +131,23 @@ std::vector<Trajectory> people_beside(const Path& path, int count, Random& rando
 }
 
 // The robot's motion in the map: it begins along the first leg.
-Trajectory drive_along(const Path& path) {
+simulation::Trajectory drive_along(const Path& path) {
   const Vector2d first = path[1] - path[0];
   const Pose2 T_map_start{path[0].x(), path[0].y(), std::atan2(first.y(), first.x())};
   Path from_start;
   for (const Vector2d& point : path)
     from_start.push_back(
         (T_map_start.inverse() * Eigen::Vector3d(point.x(), point.y(), 0.0)).head<2>());
-  DriveConfig config;
+  simulation::DriveConfig config;
   config.wait_s = kFirstScan_s;
-  const Trajectory driven = drive(from_start, config);
+  const simulation::Trajectory driven = simulation::drive(from_start, config);
   std::vector<Pose2> poses;
   for (const Pose2& pose : driven.poses()) poses.push_back(T_map_start * pose);
-  return Trajectory(driven.period_s(), std::move(poses));
+  return simulation::Trajectory(driven.period_s(), std::move(poses));
 }
 
 // When so much has been driven.
-double time_at(const Trajectory& truth, double driven_m) {
+double time_at(const simulation::Trajectory& truth, double driven_m) {
   const std::vector<Pose2>& poses = truth.poses();
   std::size_t i = 1;
   for (double driven = 0.0; i < poses.size() && driven < driven_m; ++i)
@@ -156,21 +157,22 @@ double time_at(const Trajectory& truth, double driven_m) {
 
 }  // namespace
 
-std::vector<DriveStep> drive_through(const TestFloor& floor, const Building& now, DriveKind kind,
-                                     int people, std::uint64_t seed) {
-  Random random(seed, 901);
+std::vector<DriveStep> drive_through(const TestFloor& floor, const simulation::Building& now,
+                                     DriveKind kind, int people, std::uint64_t seed) {
+  simulation::Random random(seed, 901);
   const Path path = Ways(floor, now, random).of(kind);
-  const World world(now, people_beside(path, people, random));
-  const Trajectory truth = drive_along(path);
-  const Trajectory odometry = wheel_odometry(truth, {}, seed);
-  const MirrorScanner scanner(world, truth, {}, seed);
+  const simulation::World world(now, people_beside(path, people, random));
+  const simulation::Trajectory truth = drive_along(path);
+  const simulation::Trajectory odometry = simulation::wheel_odometry(truth, {}, seed);
+  const simulation::MirrorScanner scanner(world, truth, {}, seed);
   const double period_s = (time_at(truth, kLength_m) - kFirstScan_s) / (kScans - 1);
   std::vector<DriveStep> steps;
   for (int i = 0; i < kScans; ++i) {
     const double t = kFirstScan_s + i * period_s;
-    steps.push_back({scan_sweep(scanner, odometry, t, {}, seed), truth.at(t), odometry.at(t)});
+    steps.push_back(
+        {simulation::scan_sweep(scanner, odometry, t, {}, seed), truth.at(t), odometry.at(t)});
   }
   return steps;
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::bench

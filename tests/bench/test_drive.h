@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "bench/test_floor.h"
+#include "tests/bench/test_floor.h"
 
-namespace voxlist {
+namespace voxlist::bench {
 
 /// One scan of a drive, and where it was taken (the sweep's end).
 struct DriveStep {
@@ -22,7 +22,7 @@ enum class DriveKind { kRoom, kDoor, kCorridor };
 /// the time (one in 1 to 2 s), by the simulator's robot, wheels and sweeps. `now` is what stands
 /// there today: the floor's own building, or later(); the way is free in it. People stand beside
 /// the way. Equal arguments give equal bits.
-std::vector<DriveStep> drive_through(const TestFloor& floor, const Building& now, DriveKind kind,
-                                     int people, std::uint64_t seed);
+std::vector<DriveStep> drive_through(const TestFloor& floor, const simulation::Building& now,
+                                     DriveKind kind, int people, std::uint64_t seed);
 
-}  // namespace voxlist
+}  // namespace voxlist::bench

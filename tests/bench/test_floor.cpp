@@ -1,13 +1,13 @@
-#include "bench/test_floor.h"
+#include "tests/bench/test_floor.h"
 
 #include <tbb/parallel_pipeline.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "simulation/floor_plan.h"
+#include "voxlist/simulation/building/floor_plan.h"
 
-namespace voxlist {
+namespace voxlist::bench {
 namespace {
 
 constexpr double kRobotRadius_m = 0.35;
@@ -15,18 +15,19 @@ constexpr double kRobotHeight_m = 1.0;
 constexpr double kReach_m = 100.0;
 constexpr std::size_t kScansUnderWay = 16;  // bounds memory
 
-bool has_room(const Building& building, const Pose2& pose) {
+bool has_room(const simulation::Building& building, const Pose2& pose) {
   return building.clearance_m({pose.x_m, pose.y_m}, 0.05, kRobotHeight_m) > kRobotRadius_m;
 }
 
-Pose2 pose_in(const Eigen::Vector2d& low, const Eigen::Vector2d& high, Random& random) {
+Pose2 pose_in(const Eigen::Vector2d& low, const Eigen::Vector2d& high, simulation::Random& random) {
   const double x = random.uniform(low.x(), high.x());
   const double y = random.uniform(low.y(), high.y());
   return {x, y, random.uniform(-std::numbers::pi, std::numbers::pi)};
 }
 
-std::vector<Trajectory> people_round(const Pose2& pose, int people, Random& random) {
-  std::vector<Trajectory> standing;
+std::vector<simulation::Trajectory> people_round(const Pose2& pose, int people,
+                                                 simulation::Random& random) {
+  std::vector<simulation::Trajectory> standing;
   for (int i = 0; i < people; ++i) {
     const double bearing = random.uniform(-std::numbers::pi, std::numbers::pi);
     const double range = random.uniform(0.8, 3.0);
@@ -37,15 +38,16 @@ std::vector<Trajectory> people_round(const Pose2& pose, int people, Random& rand
   return standing;
 }
 
-World world_round(const Building& building, const Pose2& pose, int people, std::uint64_t seed) {
-  Random random(seed, 5);
-  return World(building, people_round(pose, people, random));
+simulation::World world_round(const simulation::Building& building, const Pose2& pose, int people,
+                              std::uint64_t seed) {
+  simulation::Random random(seed, 5);
+  return simulation::World(building, people_round(pose, people, random));
 }
 
-Cloud scan_in(const World& world, const Pose2& pose, std::uint64_t seed) {
-  const Trajectory still(1.0, {pose});
-  const MirrorScanner scanner(world, still, {}, seed);
-  return scan_sweep(scanner, still, 1.0, {}, seed);
+Cloud scan_in(const simulation::World& world, const Pose2& pose, std::uint64_t seed) {
+  const simulation::Trajectory still(1.0, {pose});
+  const simulation::MirrorScanner scanner(world, still, {}, seed);
+  return simulation::scan_sweep(scanner, still, 1.0, {}, seed);
 }
 
 TestFloorConfig floor_of(const std::string& name, int seed, double length_m, double depth_m,
@@ -60,7 +62,7 @@ TestFloorConfig floor_of(const std::string& name, int seed, double length_m, dou
 
 // One in each square that has room for the robot, row by row.
 std::vector<Pose2> map_poses(const TestFloor& floor) {
-  Random random(static_cast<std::uint64_t>(floor.config.wing.seed), 77);
+  simulation::Random random(static_cast<std::uint64_t>(floor.config.wing.seed), 77);
   const double step = floor.config.map_scan_spacing_m;
   std::vector<Pose2> poses;
   for (double y = floor.low.y(); y < floor.high.y(); y += step) {
@@ -74,7 +76,7 @@ std::vector<Pose2> map_poses(const TestFloor& floor) {
 
 // Where the map believes that its scans were taken.
 std::vector<Pose2> believed(std::vector<Pose2> poses, const TestFloorConfig& config) {
-  Random random(static_cast<std::uint64_t>(config.wing.seed), 78);
+  simulation::Random random(static_cast<std::uint64_t>(config.wing.seed), 78);
   for (Pose2& pose : poses) {
     pose.x_m += config.misplaced_m * random.normal();
     pose.y_m += config.misplaced_m * random.normal();
@@ -85,7 +87,7 @@ std::vector<Pose2> believed(std::vector<Pose2> poses, const TestFloorConfig& con
 
 // All threads scan; one adds the scans, in the order of the poses.
 void fill_map(TestFloor& floor) {
-  const World world(floor.building);
+  const simulation::World world(floor.building);
   const std::vector<Pose2> poses = map_poses(floor), places = believed(poses, floor.config);
   const auto scan = [&](std::size_t i) {
     return floor.config.map_of_spheres ? scan_sphere(world, poses[i], {}, i + 1)
@@ -143,19 +145,19 @@ TestFloorConfig misplaced(TestFloorConfig config) {
 }
 
 TestFloor make_test_floor(const TestFloorConfig& config) {
-  const BuildingConfig& wing = config.wing;
-  TestFloor floor{
-      config.name,
-      config,
-      make_floor(wing, config.wings),
-      {-1.0, -wing.depth_m / 2.0},
-      {wing.length_m - 1.0, (config.wings - 0.5) * wing.depth_m + kWall_m * config.wings},
-      {}};
+  const simulation::BuildingConfig& wing = config.wing;
+  TestFloor floor{config.name,
+                  config,
+                  make_floor(wing, config.wings),
+                  {-1.0, -wing.depth_m / 2.0},
+                  {wing.length_m - 1.0,
+                   (config.wings - 0.5) * wing.depth_m + simulation::kWall_m * config.wings},
+                  {}};
   fill_map(floor);
   return floor;
 }
 
-Building later(TestFloorConfig config) {
+simulation::Building later(TestFloorConfig config) {
   config.wing.changed = 7;
   return make_floor(config.wing, config.wings);
 }
@@ -166,7 +168,7 @@ TestFloorConfig elsewhere(TestFloorConfig config) {
   return config;
 }
 
-Pose2 free_pose(const TestFloor& floor, Random& random) {
+Pose2 free_pose(const TestFloor& floor, simulation::Random& random) {
   for (int i = 0; i < 10'000; ++i) {
     const Pose2 pose = pose_in(floor.low, floor.high, random);
     if (has_room(floor.building, pose)) return pose;
@@ -174,15 +176,16 @@ Pose2 free_pose(const TestFloor& floor, Random& random) {
   return {};
 }
 
-Cloud scan_at(const Building& building, const Pose2& pose, int people, std::uint64_t seed) {
+Cloud scan_at(const simulation::Building& building, const Pose2& pose, int people,
+              std::uint64_t seed) {
   return scan_in(world_round(building, pose, people, seed), pose, seed);
 }
 
-Cloud sphere_scan_at(const Building& building, const Pose2& pose, int points, int people,
-                     std::uint64_t seed) {
-  SphereScanConfig config;
+Cloud sphere_scan_at(const simulation::Building& building, const Pose2& pose, int points,
+                     int people, std::uint64_t seed) {
+  simulation::SphereScanConfig config;
   config.rays = points;
   return scan_sphere(world_round(building, pose, people, seed), pose, config, seed);
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::bench

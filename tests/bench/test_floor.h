@@ -4,20 +4,20 @@
 #include <string>
 #include <vector>
 
-#include "geometry/cloud.h"
-#include "geometry/pose.h"
-#include "simulation/floor.h"
-#include "simulation/ideal_sweep.h"
-#include "simulation/random.h"
-#include "simulation/sphere_scan.h"
-#include "voxels/occupancy_map.h"
+#include "tests/simulation/floor.h"
+#include "tests/simulation/sphere_scan.h"
+#include "voxlist/geometry/cloud.h"
+#include "voxlist/geometry/pose.h"
+#include "voxlist/simulation/random.h"
+#include "voxlist/simulation/scanner/ideal_sweep.h"
+#include "voxlist/voxels/occupancy_map.h"
 
-namespace voxlist {
+namespace voxlist::bench {
 
 /// A simulated floor, and how its map is made.
 struct TestFloorConfig {
   std::string name;
-  BuildingConfig wing;
+  simulation::BuildingConfig wing;
   int wings = 1;
   double map_scan_spacing_m = 1.0;  ///< one map scan for each square of this edge
   bool map_of_spheres = false;      ///< map scans by a laser that sees all round, to 30 m
@@ -48,7 +48,7 @@ TestFloorConfig identical_floor(int seed);
 struct TestFloor {
   std::string name;
   TestFloorConfig config;
-  Building building;
+  simulation::Building building;
   Eigen::Vector2d low, high;  ///< where the robot may be
   OccupancyMap map;
 };
@@ -61,19 +61,20 @@ TestFloorConfig misplaced(TestFloorConfig config);
 TestFloor make_test_floor(const TestFloorConfig& config);
 
 /// The floor a while later: furniture is moved, gone, new.
-Building later(TestFloorConfig config);
+simulation::Building later(TestFloorConfig config);
 
 /// A floor of the same kind elsewhere.
 TestFloorConfig elsewhere(TestFloorConfig config);
 
 /// A pose that leaves the robot room, anywhere on the floor.
-Pose2 free_pose(const TestFloor& floor, Random& random);
+Pose2 free_pose(const TestFloor& floor, simulation::Random& random);
 
 /// The scan of a robot that stands there, with people round it.
-Cloud scan_at(const Building& building, const Pose2& pose, int people, std::uint64_t seed);
+Cloud scan_at(const simulation::Building& building, const Pose2& pose, int people,
+              std::uint64_t seed);
 
 /// The same by a laser that sees all round, from 1 m above the floor to 30 m away.
-Cloud sphere_scan_at(const Building& building, const Pose2& pose, int points = 64'000,
+Cloud sphere_scan_at(const simulation::Building& building, const Pose2& pose, int points = 64'000,
                      int people = 0, std::uint64_t seed = 1);
 
-}  // namespace voxlist
+}  // namespace voxlist::bench

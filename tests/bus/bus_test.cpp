@@ -1,4 +1,4 @@
-#include "bus/bus.h"
+#include "voxlist/bus/bus.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -12,7 +12,7 @@
 #include <voxlist/pointcloud_t.hpp>
 #include <voxlist/pose_t.hpp>
 
-namespace voxlist {
+namespace voxlist::bus {
 namespace {
 
 using std::chrono::milliseconds;
@@ -260,4 +260,4 @@ TEST(Bus, IsWokenByADeviceThatCanBeRead) {
 }
 
 }  // namespace
-}  // namespace voxlist
+}  // namespace voxlist::bus

@@ -1,4 +1,4 @@
-#include "bus/convert.h"
+#include "voxlist/bus/convert.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <voxlist/pointcloud_t.hpp>
 #include <voxlist/pose_t.hpp>
 
-namespace voxlist {
+namespace voxlist::bus {
 namespace {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
@@ -149,4 +149,4 @@ TEST(KeyframeMessage, IsRefusedWhenItContradictsItself) {
 }
 
 }  // namespace
-}  // namespace voxlist
+}  // namespace voxlist::bus

@@ -1,4 +1,4 @@
-#include "bus/event_log.h"
+#include "voxlist/bus/event_log.h"
 
 #include <gtest/gtest.h>
 #include <lcm/eventlog.h>
@@ -10,9 +10,9 @@
 #include <stdexcept>
 #include <voxlist/pose_t.hpp>
 
-#include "bus/bus.h"
+#include "voxlist/bus/bus.h"
 
-namespace voxlist {
+namespace voxlist::bus {
 namespace {
 
 namespace fs = std::filesystem;
@@ -239,4 +239,4 @@ TEST_F(EventLog, PlaysThroughABusOneEventACallAndThenEnds) {
 }
 
 }  // namespace
-}  // namespace voxlist
+}  // namespace voxlist::bus

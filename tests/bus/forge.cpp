@@ -1,4 +1,4 @@
-#include "bus/forge.h"
+#include "tests/bus/forge.h"
 
 #include <array>
 #include <bit>
@@ -15,10 +15,10 @@
 #include <voxlist/pointcloud_t.hpp>
 #include <voxlist/pose_t.hpp>
 
-#include "bus/channels.h"
-#include "bus/wire.h"
+#include "voxlist/bus/channels.h"
+#include "voxlist/bus/wire.h"
 
-namespace voxlist {
+namespace voxlist::bus {
 namespace {
 
 // Random content for each type. Half of the numbers are small ones that a service would believe,
@@ -232,4 +232,4 @@ Forgery Forge::next() {
   return {kinds()[channel].channel, std::move(bytes)};
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::bus

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace voxlist {
+namespace voxlist::bus {
 
 /// A message as an enemy or a broken cable would send it.
 struct Forgery {
@@ -35,4 +35,4 @@ class Forge {
   std::size_t made_ = 0;
 };
 
-}  // namespace voxlist
+}  // namespace voxlist::bus

@@ -14,12 +14,12 @@
 #include <voxlist/pointcloud_t.hpp>
 #include <voxlist/pose_t.hpp>
 
-#include "bus/bus.h"
-#include "bus/convert.h"
-#include "bus/forge.h"
-#include "bus/map_convert.h"
+#include "tests/bus/forge.h"
+#include "voxlist/bus/bus.h"
+#include "voxlist/bus/convert.h"
+#include "voxlist/bus/map_convert.h"
 
-namespace voxlist {
+namespace voxlist::bus {
 namespace {
 
 using std::chrono::milliseconds;
@@ -156,4 +156,4 @@ TEST(Forge, EncodesEveryChannelsTypeWithoutFault) {
 }
 
 }  // namespace
-}  // namespace voxlist
+}  // namespace voxlist::bus

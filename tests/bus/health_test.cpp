@@ -1,12 +1,12 @@
-#include "bus/health.h"
+#include "voxlist/bus/health.h"
 
 #include <gtest/gtest.h>
 
 #include <voxlist/health_t.hpp>
 
-#include "bus/wire.h"
+#include "voxlist/bus/wire.h"
 
-namespace voxlist {
+namespace voxlist::bus {
 namespace {
 
 TEST(Health, IsDueOnceASecond) {
@@ -58,4 +58,4 @@ TEST(Health, KeepsTheMaximumOfMoreLatenciesThanItStores) {
 }
 
 }  // namespace
-}  // namespace voxlist
+}  // namespace voxlist::bus

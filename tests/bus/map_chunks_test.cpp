@@ -1,4 +1,4 @@
-#include "bus/map_chunks.h"
+#include "voxlist/bus/map_chunks.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <random>
 #include <stdexcept>
 
-#include "bus/wire.h"
+#include "voxlist/bus/wire.h"
 
-namespace voxlist {
+namespace voxlist::bus {
 namespace {
 
 constexpr MapResolution kResolution{0.05, 0.2};
@@ -333,4 +333,4 @@ TEST(MapAssembler, EndsWithTheMappersMapWhateverTheLineLoses) {
 }
 
 }  // namespace
-}  // namespace voxlist
+}  // namespace voxlist::bus

@@ -1,11 +1,11 @@
-#include "bus/map_convert.h"
+#include "voxlist/bus/map_convert.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>
 
-namespace voxlist {
+namespace voxlist::bus {
 namespace {
 
 constexpr std::uint32_t kSeed = 1;
@@ -98,4 +98,4 @@ TEST(MapConvert, TellsThatPassedCellsAloneChanged) {
 }
 
 }  // namespace
-}  // namespace voxlist
+}  // namespace voxlist::bus

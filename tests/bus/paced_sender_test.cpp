@@ -1,11 +1,11 @@
-#include "bus/paced_sender.h"
+#include "voxlist/bus/paced_sender.h"
 
 #include <gtest/gtest.h>
 
 #include <numeric>
 #include <vector>
 
-namespace voxlist {
+namespace voxlist::bus {
 namespace {
 
 constexpr PacedSender::Options kSlow{
@@ -64,4 +64,4 @@ TEST(PacedSender, RefusesMoreThanItsQueueHolds) {
 }
 
 }  // namespace
-}  // namespace voxlist
+}  // namespace voxlist::bus

@@ -5,9 +5,9 @@
 #include <voxlist/mirror_state_t.hpp>
 #include <voxlist/planar_lidar_t.hpp>
 
-#include "bus/convert.h"
+#include "voxlist/bus/convert.h"
 
-namespace voxlist {
+namespace voxlist::bus {
 namespace {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
@@ -90,4 +90,4 @@ TEST(MirrorMessage, IsRefusedWhenItMakesNoSense) {
 }
 
 }  // namespace
-}  // namespace voxlist
+}  // namespace voxlist::bus

@@ -1,4 +1,4 @@
-#include "bus/wire.h"
+#include "voxlist/bus/wire.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <voxlist/pose_t.hpp>
 #include <voxlist/rigid_transform_t.hpp>
 
-namespace voxlist {
+namespace voxlist::bus {
 namespace {
 
 using Buffer = std::vector<std::uint8_t>;
@@ -197,4 +197,4 @@ TEST(Wire, NamesEveryFaultOnce) {
 }
 
 }  // namespace
-}  // namespace voxlist
+}  // namespace voxlist::bus

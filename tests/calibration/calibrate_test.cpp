@@ -1,12 +1,12 @@
-#include "calibration/calibrate.h"
+#include "voxlist/calibration/calibrate.h"
 
 #include <gmock/gmock.h>
 
 #include <cmath>
 
-#include "calibration/test_room.h"
+#include "tests/calibration/test_room.h"
 
-namespace voxlist {
+namespace voxlist::calibration {
 namespace {
 
 using test::record;
@@ -20,13 +20,14 @@ const std::vector<double> kTwoSpeeds_s{1.0, 3.0};
 class CalibrationInARoom : public testing::TestWithParam<test::TestRoom (*)()> {
  protected:
   const test::TestRoom room_ = GetParam()();
-  const ScannerGeometry truth_ = test::miscalibrated();
+  const scanner::ScannerGeometry truth_ = test::miscalibrated();
 };
 
 TEST_P(CalibrationInARoom, BringsTheSystematicErrorBelowACentimetreAtSixMetres) {
   const Calibration result = calibrate(record(room_, {.truth = truth_}), {}, {});
   ASSERT_THAT(result.refusals, IsEmpty());
-  const ScannerGeometry found = with_parameters({}, result.answer->parameters);
+  const scanner::ScannerGeometry found =
+      calibration::with_parameters({}, result.answer->parameters);
   EXPECT_GT(test::systematic_error({}, truth_, 1.0).max_m, 0.07);
   const test::SystematicError after = test::systematic_error(found, truth_, 1.0);
   RecordProperty("max_error_m", std::to_string(after.max_m));
@@ -40,7 +41,8 @@ TEST_P(CalibrationInARoom, FindsTheLatencyWhenTheMirrorHadTwoSpeeds) {
       calibrate(record(room_, {.truth = truth_, .sweeps_s = kTwoSpeeds_s}), {}, {});
   ASSERT_THAT(result.refusals, IsEmpty());
   EXPECT_THAT(result.warnings, IsEmpty());
-  const ScannerGeometry found = with_parameters({}, result.answer->parameters);
+  const scanner::ScannerGeometry found =
+      calibration::with_parameters({}, result.answer->parameters);
   EXPECT_NEAR(found.latency_ms, truth_.latency_ms, 0.03);
   for (const double sweep_s : {1.0, 3.0, 4.8})
     EXPECT_LT(test::systematic_error(found, truth_, sweep_s).max_m, 0.003) << sweep_s;
@@ -53,7 +55,7 @@ INSTANTIATE_TEST_SUITE_P(Each, CalibrationInARoom,
 // RMS over seeds of error over standard deviation.
 TEST(Calibration, KnowsHowWellItKnows) {
   constexpr int kSeeds = 10;
-  const ScannerGeometry truth = test::miscalibrated();
+  const scanner::ScannerGeometry truth = test::miscalibrated();
   CalibrationConfig config;
   config.level_sd_deg = 1e-4;  // this floor is level
   ParameterVector squares = ParameterVector::Zero();
@@ -80,30 +82,32 @@ TEST(Calibration, GivesTheSameAnswerAgain) {
 }
 
 TEST(Calibration, PutsTheSidesTogetherFromSeveralDegreesApart) {
-  ScannerGeometry truth = test::miscalibrated();
+  scanner::ScannerGeometry truth = test::miscalibrated();
   truth.mirror_phase_0_deg = 2.0;
   truth.mirror_phase_1_deg = -1.5;
   const Calibration result = calibrate(record(test::office(), {.truth = truth}), {}, {});
   ASSERT_THAT(result.refusals, IsEmpty());
-  const ScannerGeometry found = with_parameters({}, result.answer->parameters);
+  const scanner::ScannerGeometry found =
+      calibration::with_parameters({}, result.answer->parameters);
   EXPECT_LT(test::systematic_error(found, truth, 1.0).max_m, 0.005);
 }
 
 TEST(Calibration, MakesTheCloudLevelOnATiltedMount) {
-  CloudAssemblerConfig scanner;
+  scanner::CloudAssemblerConfig scanner;
   scanner.geometry.mount_roll_deg = 3.0;
   scanner.geometry.mount_pitch_deg = -5.0;
-  ScannerGeometry truth = scanner.geometry;
+  scanner::ScannerGeometry truth = scanner.geometry;
   truth.mirror_phase_0_deg = truth.mirror_phase_1_deg = 0.4;
   const Calibration result = calibrate(record(test::office(), {.truth = truth}), scanner, {});
   ASSERT_THAT(result.refusals, IsEmpty());
-  const ScannerGeometry found = with_parameters(scanner.geometry, result.answer->parameters);
+  const scanner::ScannerGeometry found =
+      calibration::with_parameters(scanner.geometry, result.answer->parameters);
   EXPECT_LT(test::systematic_error(found, truth, 1.0).max_m, 0.004);
 }
 
 TEST(Calibration, HoldsWhatBelongsToASideThatIsNotInUse) {
-  const ScannerGeometry truth = test::miscalibrated();
-  CloudAssemblerConfig scanner;
+  const scanner::ScannerGeometry truth = test::miscalibrated();
+  scanner::CloudAssemblerConfig scanner;
   scanner.mirror_sides = 1;
   const Calibration result =
       calibrate(record(test::office(), {.truth = truth, .single_sided = true}), scanner, {});
@@ -157,4 +161,4 @@ TEST(Calibration, RefusesWhereThereIsNothingFlat) {
 }
 
 }  // namespace
-}  // namespace voxlist
+}  // namespace voxlist::calibration

@@ -4,26 +4,26 @@
 
 #include <variant>
 
-#include "calibration/calibrate.h"
-#include "calibration/test_room.h"
-#include "scanner/mirror_clock.h"
-#include "simulation/simulated_run.h"
+#include "tests/calibration/test_room.h"
+#include "voxlist/calibration/calibrate.h"
+#include "voxlist/scanner/mirror/mirror_clock.h"
+#include "voxlist/simulation/run/simulated_run.h"
 
-namespace voxlist {
+namespace voxlist::calibration {
 namespace {
 
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-SimulationConfig simulation(const ScannerGeometry& truth, int seed) {
-  SimulationConfig config;
-  config.scans = SimulationConfig::Scans::kLines;
+simulation::SimulationConfig simulation(const scanner::ScannerGeometry& truth, int seed) {
+  simulation::SimulationConfig config;
+  config.scans = simulation::SimulationConfig::Scans::kLines;
   config.seed = config.building.seed = seed;
   config.stand_in_room = 0;
   config.duration_s = 60.0;
   config.people.count = 2;
   config.latency_ms = truth.latency_ms;
-  TurningMirrorConfig& mirror = config.scanner.mirror;
+  simulation::TurningMirrorConfig& mirror = config.scanner.mirror;
   mirror.phase_deg = {truth.mirror_phase_0_deg, truth.mirror_phase_1_deg};
   mirror.height_m = truth.mirror_height_m;
   mirror.offset_m = {truth.mirror_offset_0_m, truth.mirror_offset_1_m};
@@ -34,11 +34,13 @@ SimulationConfig simulation(const ScannerGeometry& truth, int seed) {
 
 class Recorder {
  public:
-  explicit Recorder(const TurningMirrorConfig& mirror) : clock_(clock_of(mirror)) {}
+  explicit Recorder(const simulation::TurningMirrorConfig& mirror) : clock_(clock_of(mirror)) {}
 
-  void operator()(const SimulatedOdometry& event) { input.odometry.push_back(event.measured); }
-  void operator()(const SimulatedTruth&) {}
-  void operator()(const SimulatedClockEdge& event) { clock_.add_edge(event.utime_us); }
+  void operator()(const simulation::SimulatedOdometry& event) {
+    input.odometry.push_back(event.measured);
+  }
+  void operator()(const simulation::SimulatedTruth&) {}
+  void operator()(const simulation::SimulatedClockEdge& event) { clock_.add_edge(event.utime_us); }
   void operator()(const LaserLine& line) {
     input.lines.push_back(line);
     input.mirror.push_back(clock_.add_line(line));
@@ -48,19 +50,19 @@ class Recorder {
   CalibrationInput input;
 
  private:
-  static MirrorClockConfig clock_of(const TurningMirrorConfig& mirror) {
-    MirrorClockConfig clock;
-    for (const ArmRod& arm : mirror.arms)
+  static scanner::MirrorClockConfig clock_of(const simulation::TurningMirrorConfig& mirror) {
+    scanner::MirrorClockConfig clock;
+    for (const simulation::ArmRod& arm : mirror.arms)
       clock.arms.push_back({arm.angle_deg * kRadPerDeg, arm.beam_first_deg * kRadPerDeg,
                             arm.beam_last_deg * kRadPerDeg});
     return clock;
   }
 
-  MirrorClock clock_;
+  scanner::MirrorClock clock_;
 };
 
-CalibrationInput record(const SimulationConfig& config) {
-  SimulatedRun run(config);
+CalibrationInput record(const simulation::SimulationConfig& config) {
+  simulation::SimulatedRun run(config);
   Recorder recorder(config.scanner.mirror);
   while (const auto event = run.next()) std::visit(recorder, *event);
   return std::move(recorder.input);
@@ -68,15 +70,15 @@ CalibrationInput record(const SimulationConfig& config) {
 
 // MIRROR's phase comes from the arms as LASER sees them, so it is as late as LASER: between the two
 // there is no latency left.
-ScannerGeometry as_mirror_sees(ScannerGeometry truth) {
+scanner::ScannerGeometry as_mirror_sees(scanner::ScannerGeometry truth) {
   truth.latency_ms = 0.0;
   return truth;
 }
 
 class SimulatedScanner : public testing::TestWithParam<int> {
  protected:
-  static ScannerGeometry truth() {
-    ScannerGeometry geometry = test::miscalibrated();
+  static scanner::ScannerGeometry truth() {
+    scanner::ScannerGeometry geometry = test::miscalibrated();
     geometry.mirror_offset_1_m = 0.001;  // the plate is no thinner
     return geometry;
   }
@@ -85,8 +87,9 @@ class SimulatedScanner : public testing::TestWithParam<int> {
 TEST_P(SimulatedScanner, IsWithinACentimetreAtSixMetresAfterwards) {
   const Calibration result = calibrate(record(simulation(truth(), GetParam())), {}, {});
   ASSERT_THAT(result.refusals, IsEmpty());
-  const ScannerGeometry found = with_parameters({}, result.answer->parameters);
-  const ScannerGeometry seen = as_mirror_sees(truth());
+  const scanner::ScannerGeometry found =
+      calibration::with_parameters({}, result.answer->parameters);
+  const scanner::ScannerGeometry seen = as_mirror_sees(truth());
   const test::SystematicError after = test::systematic_error(found, seen, 1.0);
   RecordProperty("max_error_m", std::to_string(after.max_m));
   EXPECT_GT(test::systematic_error({}, seen, 1.0).max_m, 0.07);
@@ -95,12 +98,13 @@ TEST_P(SimulatedScanner, IsWithinACentimetreAtSixMetresAfterwards) {
 }
 
 TEST_P(SimulatedScanner, IsCalibratedAtTwoSpeeds) {
-  SimulationConfig config = simulation(truth(), GetParam());
+  simulation::SimulationConfig config = simulation(truth(), GetParam());
   config.scanner.motor.sweep_s = {1.0, 3.0};
   config.scanner.motor.from_s = {0.0, 30.0};
   const Calibration result = calibrate(record(config), {}, {});
   ASSERT_THAT(result.refusals, IsEmpty());
-  const ScannerGeometry found = with_parameters({}, result.answer->parameters);
+  const scanner::ScannerGeometry found =
+      calibration::with_parameters({}, result.answer->parameters);
   for (const double sweep_s : {1.0, 3.0})
     EXPECT_LT(test::systematic_error(found, as_mirror_sees(truth()), sweep_s).max_m, 0.01);
 }
@@ -108,4 +112,4 @@ TEST_P(SimulatedScanner, IsCalibratedAtTwoSpeeds) {
 INSTANTIATE_TEST_SUITE_P(Buildings, SimulatedScanner, testing::Values(1, 2, 3));
 
 }  // namespace
-}  // namespace voxlist
+}  // namespace voxlist::calibration

@@ -1,11 +1,11 @@
-#include "calibration/steady_mirror.h"
+#include "voxlist/calibration/steady_mirror.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-namespace voxlist {
+namespace voxlist::calibration {
 namespace {
 
 constexpr double kRate_radps = 3.0;
@@ -70,4 +70,4 @@ TEST(SteadyMirror, KeepsStatesWithoutAClockAsTheyAre) {
 }
 
 }  // namespace
-}  // namespace voxlist
+}  // namespace voxlist::calibration

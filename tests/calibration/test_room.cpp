@@ -1,4 +1,4 @@
-#include "calibration/test_room.h"
+#include "tests/calibration/test_room.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <numbers>
 #include <optional>
 
-#include "simulation/random.h"
+#include "voxlist/simulation/random.h"
 
 namespace voxlist::test {
 namespace {
@@ -20,7 +20,7 @@ constexpr double kPlateHalfWidth_m = 0.05;
 constexpr double kLinesPerSecond = 75.0;
 constexpr double kMaxRange_m = 8.183;
 
-Box block(const Vector3d& low, const Vector3d& high, double yaw_rad = 0.0) {
+simulation::Box block(const Vector3d& low, const Vector3d& high, double yaw_rad = 0.0) {
   return {(low + high) / 2.0, (high - low) / 2.0, yaw_rad};
 }
 
@@ -74,7 +74,7 @@ class Caster {
 
  private:
   const TestRoom& room_;
-  const BoxTree tree_;
+  const simulation::BoxTree tree_;
 };
 
 // A beam after the mirror (laser frame), or past its edge, straight on.
@@ -84,10 +84,12 @@ struct Traced {
   int side;
 };
 
-Traced trace(const ScannerGeometry& g, double psi_rad, double beam_rad, double half_width_m) {
-  const Eigen::Matrix3d tilt = (Eigen::AngleAxisd(g.axis_yaw_deg * kRadPerDeg, Vector3d::UnitZ()) *
-                                Eigen::AngleAxisd(g.axis_roll_deg * kRadPerDeg, Vector3d::UnitX()))
-                                   .toRotationMatrix();
+Traced trace(const scanner::ScannerGeometry& g, double psi_rad, double beam_rad,
+             double half_width_m) {
+  const Eigen::Matrix3d tilt =
+      (Eigen::AngleAxisd(g.axis_yaw_deg * calibration::kRadPerDeg, Vector3d::UnitZ()) *
+       Eigen::AngleAxisd(g.axis_roll_deg * calibration::kRadPerDeg, Vector3d::UnitX()))
+          .toRotationMatrix();
   const Vector3d middle(0.0, 0.0, g.mirror_height_m);
   const Vector3d d(0.0, std::cos(beam_rad), std::sin(beam_rad));
   for (const int side : {0, 1}) {
@@ -95,9 +97,9 @@ Traced trace(const ScannerGeometry& g, double psi_rad, double beam_rad, double h
     const double e = side == 0 ? g.mirror_offset_0_m : g.mirror_offset_1_m;
     // The plate lies in its own frame with the side's normal along x, its axis along y.
     const Eigen::Matrix3d turned =
-        tilt *
-        Eigen::AngleAxisd(-(psi_rad + phase_deg * kRadPerDeg) - side * kPi, Vector3d::UnitY())
-            .toRotationMatrix();
+        tilt * Eigen::AngleAxisd(-(psi_rad + phase_deg * calibration::kRadPerDeg) - side * kPi,
+                                 Vector3d::UnitY())
+                   .toRotationMatrix();
     const Vector3d from_plate = turned.transpose() * -middle, d_plate = turned.transpose() * d;
     if (d_plate.x() >= 0.0) continue;
     const double path_m = (e - from_plate.x()) / d_plate.x();
@@ -173,13 +175,13 @@ TestRoom lone_wall() {
   return room;
 }
 
-CalibrationInput record(const TestRoom& room, const RecordingOptions& options) {
+calibration::CalibrationInput record(const TestRoom& room, const RecordingOptions& options) {
   const Caster caster(room);
-  Random random(options.seed);
-  const ScannerGeometry& truth = options.truth;
+  simulation::Random random(options.seed);
+  const scanner::ScannerGeometry& truth = options.truth;
   const Pose3 T_map_laser = to_pose3(room.T_map_base) * truth.T_base_laser();
   const int lines = static_cast<int>(options.duration_s * kLinesPerSecond);
-  CalibrationInput input;
+  calibration::CalibrationInput input;
   for (int i = 0; i < lines; ++i) {
     const auto part =
         static_cast<std::size_t>(i) * options.sweeps_s.size() / static_cast<std::size_t>(lines);
@@ -198,7 +200,8 @@ CalibrationInput record(const TestRoom& room, const RecordingOptions& options) {
       const double t_s = static_cast<double>(line.utime_us) * 1e-6 +
                          beam_delay_us(line, beam) * 1e-6 - truth.latency_ms * 1e-3;
       const Traced ray =
-          trace(truth, rate * t_s, static_cast<double>(beam) * kRadPerDeg, kPlateHalfWidth_m);
+          trace(truth, rate * t_s, static_cast<double>(beam) * calibration::kRadPerDeg,
+                kPlateHalfWidth_m);
       if (options.single_sided && ray.side == 1) continue;
       const double beyond_m =
           caster.range_m(T_map_laser * ray.from, T_map_laser.linear() * ray.to, t_s);
@@ -213,17 +216,18 @@ CalibrationInput record(const TestRoom& room, const RecordingOptions& options) {
   return input;
 }
 
-SystematicError systematic_error(const ScannerGeometry& found, const ScannerGeometry& truth,
-                                 double sweep_s) {
+SystematicError systematic_error(const scanner::ScannerGeometry& found,
+                                 const scanner::ScannerGeometry& truth, double sweep_s) {
   constexpr double kFar_m = 6.0, kBlind_deg = 7.5;
   const double rate = rate_of(sweep_s);
-  const MirrorModel<> model = found.model();
+  const scanner::MirrorModel<> model = found.model();
   SystematicError error;
   int count = 0;
   for (int psi_deg = 0; psi_deg < 360; psi_deg += 3)
     for (int beam_deg = 25; beam_deg <= 155; beam_deg += 5) {
-      const double psi = psi_deg * kRadPerDeg, beam = beam_deg * kRadPerDeg;
-      if (std::abs(std::sin(psi)) < std::sin(kBlind_deg * kRadPerDeg)) continue;
+      const double psi = psi_deg * calibration::kRadPerDeg,
+                   beam = beam_deg * calibration::kRadPerDeg;
+      if (std::abs(std::sin(psi)) < std::sin(kBlind_deg * calibration::kRadPerDeg)) continue;
       const Traced is = trace(truth, psi - rate * truth.latency_ms * 1e-3, beam, 1.0);
       const auto said = model.reflect(psi - rate * found.latency_ms * 1e-3, beam);
       const Vector3d point = truth.T_base_laser() * Vector3d(is.from + kFar_m * is.to);
@@ -239,8 +243,8 @@ SystematicError systematic_error(const ScannerGeometry& found, const ScannerGeom
   return error;
 }
 
-ScannerGeometry miscalibrated() {
-  ScannerGeometry geometry;
+scanner::ScannerGeometry miscalibrated() {
+  scanner::ScannerGeometry geometry;
   geometry.mirror_phase_0_deg = 0.25;
   geometry.mirror_phase_1_deg = -0.2;
   geometry.mirror_height_m += 0.005;

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "calibration/calibrate.h"
-#include "geometry/pose.h"
-#include "simulation/box_tree.h"
+#include "voxlist/calibration/calibrate.h"
+#include "voxlist/geometry/pose.h"
+#include "voxlist/simulation/building/box_tree.h"
 
 namespace voxlist::test {
 
@@ -19,7 +19,7 @@ struct Cylinder {
 /// Where a robot stands and records. Floor at z = 0.
 struct TestRoom {
   std::string name;
-  std::vector<Box> boxes;
+  std::vector<simulation::Box> boxes;
   std::vector<Cylinder> cylinders;
   Pose2 T_map_base;
 
@@ -39,7 +39,7 @@ TestRoom lone_wall();
 
 /// How a log is recorded.
 struct RecordingOptions {
-  ScannerGeometry truth;
+  scanner::ScannerGeometry truth;
   std::vector<double> sweeps_s{1.0};  ///< one after the other, each as long
   double duration_s = 60.0;
   double range_sd_m = 0.005;
@@ -49,17 +49,17 @@ struct RecordingOptions {
 
 /// Lines of an LMS 200 (whole millimetres, to 8.183 m) under a turning plate of 0.1 m width, traced
 /// ray by ray without MirrorModel.
-CalibrationInput record(const TestRoom& room, const RecordingOptions& options);
+calibration::CalibrationInput record(const TestRoom& room, const RecordingOptions& options);
 
 /// Distances between where points 6 m from the scanner are and where a geometry puts them, over all
 /// directions, at this sweep time.
 struct SystematicError {
   double rms_m = 0.0, max_m = 0.0;
 };
-SystematicError systematic_error(const ScannerGeometry& found, const ScannerGeometry& truth,
-                                 double sweep_s);
+SystematicError systematic_error(const scanner::ScannerGeometry& found,
+                                 const scanner::ScannerGeometry& truth, double sweep_s);
 
 /// The errors of issue and paper on the default scanner.
-ScannerGeometry miscalibrated();
+scanner::ScannerGeometry miscalibrated();
 
 }  // namespace voxlist::test

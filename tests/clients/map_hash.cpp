@@ -3,15 +3,16 @@
 #include <cstdio>
 #include <exception>
 
-#include "mapping/map_store.h"
+#include "voxlist/mapping/map_store.h"
 
 int main(int argc, char** argv) try {
   if (argc != 2) return 2;
-  voxlist::StoredMap stored = voxlist::load_map(argv[1]);
-  voxlist::MapBuilder builder;
-  for (voxlist::Keyframe& keyframe : stored.keyframes) builder.add(std::move(keyframe));
+  voxlist::mapping::StoredMap stored = voxlist::mapping::load_map(argv[1]);
+  voxlist::mapping::MapBuilder builder;
+  for (voxlist::mapping::Keyframe& keyframe : stored.keyframes) builder.add(std::move(keyframe));
   std::printf("map %lld, %zu keyframes, hash %016llx\n", static_cast<long long>(stored.map_id),
-              builder.keyframes().size(), static_cast<unsigned long long>(builder.map().occupied.hash()));
+              builder.keyframes().size(),
+              static_cast<unsigned long long>(builder.map().occupied.hash()));
   return 0;
 } catch (const std::exception& error) {
   std::fprintf(stderr, "map_hash: %s\n", error.what());

@@ -1,8 +1,8 @@
-#include "config/edit.h"
+#include "voxlist/config/edit.h"
 
 #include <gtest/gtest.h>
 
-namespace voxlist {
+namespace voxlist::config {
 namespace {
 
 TEST(Edit, ReplacesANumberInItsPlaceAndKeepsTheRest) {
@@ -61,4 +61,4 @@ TEST(Edit, RefusesWhatItCannotKeepAsItIs) {
 }
 
 }  // namespace
-}  // namespace voxlist
+}  // namespace voxlist::config

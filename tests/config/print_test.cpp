@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
-#include "config/config.h"
-#include "config/sample_config.h"
+#include "tests/config/sample_config.h"
+#include "voxlist/config/config.h"
 
-namespace voxlist {
+namespace voxlist::config {
 namespace {
 
 TEST(PrintConfig, WritesEachKeyUnderItsMeaningAndRange) {
@@ -47,4 +47,4 @@ TEST(MarkdownTable, HasARowForEachKey) {
 }
 
 }  // namespace
-}  // namespace voxlist
+}  // namespace voxlist::config

@@ -4,10 +4,10 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "config/config.h"
-#include "config/sample_config.h"
+#include "tests/config/sample_config.h"
+#include "voxlist/config/config.h"
 
-namespace voxlist {
+namespace voxlist::config {
 namespace {
 
 using ::testing::ElementsAre;
@@ -153,4 +153,4 @@ TEST_F(ReadConfig, ReadsBackExactlyWhatIsPrinted) {
 }
 
 }  // namespace
-}  // namespace voxlist
+}  // namespace voxlist::config

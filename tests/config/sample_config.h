@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace voxlist {
+namespace voxlist::config {
 
 /// A settings struct with a member of every kind.
 struct SampleConfig {
@@ -25,4 +25,4 @@ struct SampleConfig {
   }
 };
 
-}  // namespace voxlist
+}  // namespace voxlist::config

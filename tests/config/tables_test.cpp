@@ -1,4 +1,4 @@
-#include "config/tables.h"
+#include "voxlist/config/tables.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,9 +7,9 @@
 #include <fstream>
 #include <iterator>
 
-#include "config/config.h"
+#include "voxlist/config/config.h"
 
-namespace voxlist {
+namespace voxlist::config {
 namespace {
 
 using ::testing::Contains;
@@ -35,4 +35,4 @@ TEST(Tables, AreAllThatTheShippedSettingsFileHas) {
 }
 
 }  // namespace
-}  // namespace voxlist
+}  // namespace voxlist::config

@@ -3,9 +3,9 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "desk/scan_set.h"
+#include "tests/desk/scan_set.h"
 
-namespace voxlist {
+namespace voxlist::desk {
 namespace {
 
 using testing::AllOf;
@@ -93,4 +93,4 @@ TEST_F(Calibrate, SaysThatALogHasNoLines) {
 }
 
 }  // namespace
-}  // namespace voxlist
+}  // namespace voxlist::desk

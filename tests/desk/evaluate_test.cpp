@@ -2,9 +2,9 @@
 
 #include <filesystem>
 
-#include "desk/scan_set.h"
+#include "tests/desk/scan_set.h"
 
-namespace voxlist {
+namespace voxlist::desk {
 namespace {
 
 using testing::ContainsRegex;
@@ -50,4 +50,4 @@ TEST_F(Evaluate, SaysWhenNothingBelongsTogether) {
 }
 
 }  // namespace
-}  // namespace voxlist
+}  // namespace voxlist::desk

@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <numbers>
 
-#include "io/scan_folder.h"
-#include "matching/localiser.h"
+#include "voxlist/io/scans/scan_folder.h"
+#include "voxlist/matching/localisation/localiser.h"
 
-namespace voxlist {
+namespace voxlist::desk {
 namespace {
 
 // A recording that the project does not carry: $VOXLIST_DATA, else beside the sources.
@@ -17,7 +17,7 @@ std::filesystem::path hall_folder() {
   return std::filesystem::path(data ? data : VOXLIST_SOURCE_DIR "/../shared/data") / "hall";
 }
 
-OccupancyMap map_of_even_scans(const ScanFolder& scans) {
+OccupancyMap map_of_even_scans(const io::ScanFolder& scans) {
   OccupancyMap map;
   for (std::size_t i = 0; i < scans.size(); i += 2)
     if (const auto truth = scans.truth(i)) add_scan(scans.read(i), *truth, 100.0, map);
@@ -27,15 +27,15 @@ OccupancyMap map_of_even_scans(const ScanFolder& scans) {
 TEST(HallLocalisation, FindsOddScansInAMapOfEvenOnesWithoutAGuess) {
   if (!std::filesystem::exists(hall_folder()))
     GTEST_SKIP() << hall_folder() << " is not there: set VOXLIST_DATA";
-  const ScanFolder scans(hall_folder());
+  const io::ScanFolder scans(hall_folder());
   const OccupancyMap map = map_of_even_scans(scans);
-  Localiser localiser(map);
+  matching::Localiser localiser(map);
   int queries = 0, right = 0, sure = 0;
   double worst_m = 0.0;
   for (std::size_t i = 1; i < scans.size(); i += 2) {
     const auto truth = scans.truth(i);
     if (!truth) continue;
-    const Localisation found = localiser.locate(scans.read(i));
+    const matching::Localisation found = localiser.locate(scans.read(i));
     ++queries;
     if (found.modes.empty()) continue;
     const Pose2& pose = found.modes.front().T_map_base;
@@ -54,4 +54,4 @@ TEST(HallLocalisation, FindsOddScansInAMapOfEvenOnesWithoutAGuess) {
 }
 
 }  // namespace
-}  // namespace voxlist
+}  // namespace voxlist::desk

@@ -6,13 +6,13 @@
 #include <voxlist/pointcloud_t.hpp>
 #include <voxlist/pose_t.hpp>
 
-#include "bus/convert.h"
-#include "bus/event_log.h"
-#include "desk/scan_set.h"
-#include "io/cloud_file.h"
-#include "io/pose_file.h"
+#include "tests/desk/scan_set.h"
+#include "voxlist/bus/convert.h"
+#include "voxlist/bus/event_log.h"
+#include "voxlist/io/clouds/cloud_file.h"
+#include "voxlist/io/poses/pose_file.h"
 
-namespace voxlist {
+namespace voxlist::desk {
 namespace {
 
 using testing::HasSubstr;
@@ -21,10 +21,10 @@ class Import : public testing::Test {
  protected:
   Import() { test::make_scan_set(scans_); }
 
-  std::vector<Event> import_and_read() {
+  std::vector<bus::Event> import_and_read() {
     EXPECT_EQ(test::run({"import", scans_, "-o", log_}).exit_code, 0);
-    std::vector<Event> events;
-    EventLogReader reader(log_);
+    std::vector<bus::Event> events;
+    bus::EventLogReader reader(log_);
     while (auto event = reader.next()) events.push_back(std::move(*event));
     EXPECT_EQ(reader.damaged_events(), 0);
     return events;
@@ -35,16 +35,16 @@ class Import : public testing::Test {
 };
 
 template <class M>
-M decoded(const Event& event) {
+M decoded(const bus::Event& event) {
   M message;
-  EXPECT_EQ(decode(event.bytes, message), Fault::kNone);
+  EXPECT_EQ(bus::decode(event.bytes, message), bus::Fault::kNone);
   return message;
 }
 
 TEST_F(Import, KeepsScansOdometryAndTruthInTheOrderOfTheirTimes) {
   std::map<std::string, int> counts;
   std::int64_t last_us = 0, last_odometry_us = -1, last_truth_us = -1;
-  for (const Event& event : import_and_read()) {
+  for (const bus::Event& event : import_and_read()) {
     ++counts[event.channel];
     EXPECT_GE(event.utime_us, last_us);
     last_us = event.utime_us;
@@ -62,18 +62,18 @@ TEST_F(Import, KeepsScansOdometryAndTruthInTheOrderOfTheirTimes) {
 }
 
 TEST_F(Import, KeepsEveryPointOriginAndPose) {
-  const PoseTable poses = read_pose_csv(scans_ + "/poses.csv");
+  const io::PoseTable poses = io::read_pose_csv(scans_ + "/poses.csv");
   std::size_t scan = 0;
-  for (const Event& event : import_and_read()) {
+  for (const bus::Event& event : import_and_read()) {
     if (event.channel == "TRUTH") {
-      const auto truth = from_message(decoded<pose_t>(event));
+      const auto truth = bus::from_message(decoded<pose_t>(event));
       ASSERT_TRUE(truth);
       EXPECT_TRUE(truth->pose.isApprox(poses.rows[scan].pose, 1e-12));
     }
     if (event.channel != "CLOUD") continue;
-    const auto received = from_message(decoded<pointcloud_t>(event));
+    const auto received = bus::from_message(decoded<pointcloud_t>(event));
     ASSERT_TRUE(received.cloud);
-    const Cloud written = read_cloud_file(scans_ + "/scan_" + std::to_string(scan++) + ".ply");
+    const Cloud written = io::read_cloud_file(scans_ + "/scan_" + std::to_string(scan++) + ".ply");
     EXPECT_GT(written.points.size(), 1000u);
     EXPECT_EQ(received.cloud->points, written.points);
     EXPECT_EQ(received.cloud->origins, written.origins);
@@ -81,7 +81,7 @@ TEST_F(Import, KeepsEveryPointOriginAndPose) {
 }
 
 TEST_F(Import, WritesWhatLcmReads) {
-  const std::vector<Event> events = import_and_read();
+  const std::vector<bus::Event> events = import_and_read();
   lcm_eventlog_t* log = lcm_eventlog_create(log_.c_str(), "r");
   ASSERT_NE(log, nullptr);
   std::size_t count = 0;
@@ -117,4 +117,4 @@ TEST_F(Import, LeavesTheOldLogAloneWhenItFails) {
 }
 
 }  // namespace
-}  // namespace voxlist
+}  // namespace voxlist::desk

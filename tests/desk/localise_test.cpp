@@ -2,11 +2,11 @@
 
 #include <sstream>
 
-#include "desk/scan_set.h"
-#include "io/csv_table.h"
-#include "io/pose_file.h"
+#include "tests/desk/scan_set.h"
+#include "voxlist/io/poses/csv_table.h"
+#include "voxlist/io/poses/pose_file.h"
 
-namespace voxlist {
+namespace voxlist::desk {
 namespace {
 
 using testing::HasSubstr;
@@ -43,8 +43,9 @@ TEST_F(Localise, WritesOneRowAScanUnderTheAgreedHeader) {
 
 TEST_F(Localise, IsRightWhereItSaysThatItIsSure) {
   ASSERT_EQ(localise(scans_).exit_code, 0);
-  const CsvTable table(result_);
-  const PoseTable found = read_pose_csv(result_), truth = read_pose_csv(scans_ + "/poses.csv");
+  const io::CsvTable table(result_);
+  const io::PoseTable found = io::read_pose_csv(result_),
+                      truth = io::read_pose_csv(scans_ + "/poses.csv");
   int sure = 0;
   for (std::size_t row = 0; row < table.rows(); ++row) {
     if (table.text(row, *table.column({"state"})) != "TRACKING") continue;
@@ -76,4 +77,4 @@ TEST_F(Localise, KeepsTheNumbersOfScansAfterADamagedOne) {
 }
 
 }  // namespace
-}  // namespace voxlist
+}  // namespace voxlist::desk

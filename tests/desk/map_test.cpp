@@ -7,16 +7,16 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "desk/scan_set.h"
-#include "io/cloud_file.h"
-#include "io/evaluation.h"
-#include "io/trajectory.h"
-#include "mapping/map_store.h"
-#include "services/voxlist/console.h"
-#include "services/voxlist/desk.h"
-#include "services/voxlist/stop.h"
+#include "services/voxlist/commands/desk.h"
+#include "services/voxlist/output/console.h"
+#include "services/voxlist/output/stop.h"
+#include "tests/desk/scan_set.h"
+#include "voxlist/evaluation/evaluation.h"
+#include "voxlist/io/clouds/cloud_file.h"
+#include "voxlist/io/poses/trajectory.h"
+#include "voxlist/mapping/map_store.h"
 
-namespace voxlist {
+namespace voxlist::desk {
 namespace {
 
 namespace fs = std::filesystem;
@@ -50,8 +50,8 @@ class Map : public testing::Test {
 TEST_F(Map, PlacesEveryScanOfASimulatedDriveNearItsTruth) {
   const test::DeskRun run = map(scans_, folder_);
   EXPECT_EQ(run.exit_code, 0) << run.err;
-  const auto errors =
-      evaluate(read_tum(folder_ + "/trajectory.tum"), read_pose_csv(scans_ + "/poses.csv"));
+  const auto errors = evaluation::evaluate(io::read_tum(folder_ + "/trajectory.tum"),
+                                           io::read_pose_csv(scans_ + "/poses.csv"));
   ASSERT_TRUE(errors);
   EXPECT_EQ(errors->matched, static_cast<std::size_t>(test::kScans));
   EXPECT_LT(errors->aligned_m.rmse, 0.05);
@@ -65,13 +65,13 @@ TEST_F(Map, TellsTheSameInTheSummaryAsInTheFiles) {
   EXPECT_EQ(json["left_out"], 0);
   EXPECT_EQ(json["seconds"], test::kScans - 1.0);
   EXPECT_GT(json["real_time_factor"], 0.0);
-  EXPECT_EQ(json["voxels"], read_cloud_file(folder_ + "/map.ply").points.size());
-  const StoredMap stored = load_map(folder_);
+  EXPECT_EQ(json["voxels"], io::read_cloud_file(folder_ + "/map.ply").points.size());
+  const mapping::StoredMap stored = mapping::load_map(folder_);
   EXPECT_EQ(json["keyframes"], stored.keyframes.size());
   EXPECT_GT(stored.keyframes.size(), 1u);
   EXPECT_EQ(stored.warning, "");
-  MapBuilder again;
-  for (const Keyframe& keyframe : stored.keyframes) again.add(keyframe);
+  mapping::MapBuilder again;
+  for (const mapping::Keyframe& keyframe : stored.keyframes) again.add(keyframe);
   EXPECT_EQ(again.map().occupied.hash(),
             std::stoull(json["map_hash"].get<std::string>(), nullptr, 16));
   EXPECT_GT(fs::file_size(folder_ + "/map.png"), 1000u);
@@ -97,19 +97,19 @@ TEST_F(Map, PutsScansAtGivenPosesAndSkipsThoseWithout) {
                    "scan,x,y,z,qx,qy,qz,qw\n2,1,2,3,0,0,0.6,0.8\n5,4,5,6,0,0,0,1\n");
   const test::DeskRun run = map(scans_, folder_, {"--use-poses", work_ / "given.csv"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  const auto trajectory = read_tum(folder_ + "/trajectory.tum");
+  const auto trajectory = io::read_tum(folder_ + "/trajectory.tum");
   ASSERT_EQ(trajectory.size(), 2u);
   EXPECT_EQ(trajectory[0].utime_us, 3'000'000);
   EXPECT_TRUE(trajectory[0].pose.translation().isApprox(Eigen::Vector3d(1.0, 2.0, 3.0)));
   EXPECT_NEAR(to_pose2(trajectory[0].pose).yaw_rad, 2.0 * std::atan2(0.6, 0.8), 1e-9);
-  EXPECT_EQ(load_map(folder_).keyframes.size(), 2u);
+  EXPECT_EQ(mapping::load_map(folder_).keyframes.size(), 2u);
   EXPECT_EQ(summary(folder_)["without_pose"], test::kScans - 2);
 }
 
 TEST_F(Map, FindsGivenPosesForALogByTime) {
   test::write_text(work_ / "given.csv", "t,x,y,yaw\n3.004,1,2,0.5\n4.5,9,9,0\n");
   ASSERT_EQ(map(import(), folder_, {"--use-poses", work_ / "given.csv"}).exit_code, 0);
-  const auto trajectory = read_tum(folder_ + "/trajectory.tum");
+  const auto trajectory = io::read_tum(folder_ + "/trajectory.tum");
   ASSERT_EQ(trajectory.size(), 1u);
   EXPECT_EQ(trajectory[0].utime_us, 3'000'000);
 }
@@ -185,9 +185,9 @@ TEST_F(Map, KeepsWhatItHasWhenInterrupted) {
   EXPECT_EQ(exit_code, kInterrupted);
   EXPECT_EQ(summary(folder_)["placed"], 3);
   EXPECT_EQ(summary(folder_)["interrupted"], true);
-  EXPECT_EQ(load_map(folder_).warning, "");
+  EXPECT_EQ(mapping::load_map(folder_).warning, "");
   EXPECT_FALSE(fs::exists(folder_ + "/map.bt"));
 }
 
 }  // namespace
-}  // namespace voxlist
+}  // namespace voxlist::desk

@@ -3,11 +3,11 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "desk/scan_set.h"
-#include "io/evaluation.h"
-#include "io/trajectory.h"
+#include "tests/desk/scan_set.h"
+#include "voxlist/evaluation/evaluation.h"
+#include "voxlist/io/poses/trajectory.h"
 
-namespace voxlist {
+namespace voxlist::desk {
 namespace {
 
 // Recordings that the project does not carry: $VOXLIST_DATA, else beside the sources.
@@ -25,8 +25,8 @@ TEST(RealData, TheHallIsMappedWholeAndWithinTenCentimetres) {
   ASSERT_EQ(
       test::run({"map", work / "log", "-o", work / "map", "--octomap-resolution", "1"}).exit_code,
       0);
-  const auto errors =
-      evaluate(read_tum(work / "map/trajectory.tum"), read_pose_csv(hall + "/poses.csv"));
+  const auto errors = evaluation::evaluate(io::read_tum(work / "map/trajectory.tum"),
+                                           io::read_pose_csv(hall + "/poses.csv"));
   ASSERT_TRUE(errors);
   EXPECT_EQ(errors->matched, 89u);
   EXPECT_EQ(errors->in_truth, 89u);
@@ -35,4 +35,4 @@ TEST(RealData, TheHallIsMappedWholeAndWithinTenCentimetres) {
 }
 
 }  // namespace
-}  // namespace voxlist
+}  // namespace voxlist::desk

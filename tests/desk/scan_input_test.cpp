@@ -1,4 +1,4 @@
-#include "services/voxlist/scan_input.h"
+#include "services/voxlist/recording/scan_input.h"
 
 #include <gmock/gmock.h>
 
@@ -6,11 +6,11 @@
 #include <sstream>
 #include <voxlist/pose_t.hpp>
 
-#include "bus/convert.h"
-#include "bus/event_log.h"
-#include "desk/scan_set.h"
+#include "tests/desk/scan_set.h"
+#include "voxlist/bus/convert.h"
+#include "voxlist/bus/event_log.h"
 
-namespace voxlist {
+namespace voxlist::desk {
 namespace {
 
 using testing::HasSubstr;
@@ -39,8 +39,8 @@ Cloud cloud_at(std::int64_t utime_us) {
   return cloud;
 }
 
-void write_cloud(EventLogWriter& log, std::int64_t utime_us) {
-  log.write(kCloud, utime_us, to_message(cloud_at(utime_us), "base", 0));
+void write_cloud(bus::EventLogWriter& log, std::int64_t utime_us) {
+  log.write(bus::kCloud, utime_us, bus::to_message(cloud_at(utime_us), "base", 0));
 }
 
 TEST_F(ScanInputs, GiveTheSameScansFromAFolderAndFromItsLog) {
@@ -62,10 +62,10 @@ TEST_F(ScanInputs, GiveTheSameScansFromAFolderAndFromItsLog) {
 
 TEST_F(ScanInputs, TellWhereOdometryStoodAtEachScan) {
   {
-    EventLogWriter log(work_ / "log");
+    bus::EventLogWriter log(work_ / "log");
     write_cloud(log, 50);
-    log.write(kOdometry, 100, to_message(StampedPose2{100, {1.0, 2.0, 0.5}}));
-    log.write(kOdometry, 300, to_message(StampedPose2{300, {7.0, 7.0, 0.7}}));
+    log.write(bus::kOdometry, 100, bus::to_message(StampedPose2{100, {1.0, 2.0, 0.5}}));
+    log.write(bus::kOdometry, 300, bus::to_message(StampedPose2{300, {7.0, 7.0, 0.7}}));
     write_cloud(log, 200);
   }
   const auto scans = read(work_ / "log");
@@ -78,7 +78,7 @@ TEST_F(ScanInputs, TellWhereOdometryStoodAtEachScan) {
 
 TEST_F(ScanInputs, CountForgedMessagesAndKeepTheNumbersOfTheOthers) {
   {
-    EventLogWriter log(work_ / "log");
+    bus::EventLogWriter log(work_ / "log");
     write_cloud(log, 1);
     log.write("CLOUD", 2, std::vector<std::uint8_t>(40, 0xff));
     log.write("ODOMETRY", 3, std::vector<std::uint8_t>(3, 0));
@@ -94,7 +94,7 @@ TEST_F(ScanInputs, CountForgedMessagesAndKeepTheNumbersOfTheOthers) {
 
 TEST_F(ScanInputs, ReadALogThatWasTornAtItsEnd) {
   {
-    EventLogWriter log(work_ / "log");
+    bus::EventLogWriter log(work_ / "log");
     write_cloud(log, 1);
     write_cloud(log, 2);
   }
@@ -105,7 +105,7 @@ TEST_F(ScanInputs, ReadALogThatWasTornAtItsEnd) {
 
 TEST_F(ScanInputs, TellOnlyTheFirstFewOfManyFaults) {
   {
-    EventLogWriter log(work_ / "log");
+    bus::EventLogWriter log(work_ / "log");
     write_cloud(log, 1);
     for (int i = 0; i < 1000; ++i) log.write("CLOUD", i, std::vector<std::uint8_t>(3, 0));
   }
@@ -115,4 +115,4 @@ TEST_F(ScanInputs, TellOnlyTheFirstFewOfManyFaults) {
 }
 
 }  // namespace
-}  // namespace voxlist
+}  // namespace voxlist::desk

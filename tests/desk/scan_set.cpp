@@ -1,4 +1,4 @@
-#include "desk/scan_set.h"
+#include "tests/desk/scan_set.h"
 
 #include <cstdlib>
 #include <fstream>
@@ -6,10 +6,10 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "io/cloud_file.h"
-#include "services/voxlist/console.h"
-#include "services/voxlist/desk.h"
-#include "simulation/simulated_run.h"
+#include "services/voxlist/commands/desk.h"
+#include "services/voxlist/output/console.h"
+#include "voxlist/io/clouds/cloud_file.h"
+#include "voxlist/simulation/run/simulated_run.h"
 
 namespace voxlist::test {
 namespace {
@@ -40,15 +40,15 @@ class ScanSetWriter {
         poses_(folder / "poses.csv", "index,utime_us,x_m,y_m,yaw_rad"),
         odometry_(folder / "odometry.csv", "utime_us,x_m,y_m,yaw_rad") {}
 
-  void operator()(const SimulatedOdometry& event) { odometry_.add("", event.measured); }
-  void operator()(const SimulatedTruth& event) {
+  void operator()(const simulation::SimulatedOdometry& event) { odometry_.add("", event.measured); }
+  void operator()(const simulation::SimulatedTruth& event) {
     poses_.add(std::to_string(scans_) + ",", event.pose);
   }
   void operator()(const Cloud& cloud) {
-    write_ply(folder_ / ("scan_" + std::to_string(scans_++) + ".ply"), cloud);
+    io::write_ply(folder_ / ("scan_" + std::to_string(scans_++) + ".ply"), cloud);
   }
   void operator()(const LaserLine&) {}  // none: the run yields clouds
-  void operator()(const SimulatedClockEdge&) {}
+  void operator()(const simulation::SimulatedClockEdge&) {}
 
  private:
   const fs::path folder_;
@@ -71,17 +71,17 @@ WorkFolder::~WorkFolder() {
 
 void make_scan_set(const std::string& folder) {
   fs::create_directories(folder);
-  SimulationConfig config;  // its seeds are fixed
+  simulation::SimulationConfig config;  // its seeds are fixed
   config.duration_s = kScans;
-  SimulatedRun simulation(config);
+  simulation::SimulatedRun simulation(config);
   ScanSetWriter writer(folder);
   while (const auto event = simulation.next()) std::visit(writer, *event);
 }
 
 DeskRun run(std::vector<std::string> arguments) {
   std::ostringstream out, err;
-  Console console(out, err, false);
-  const int exit_code = run_desk(std::move(arguments), console);
+  desk::Console console(out, err, false);
+  const int exit_code = desk::run_desk(std::move(arguments), console);
   return {exit_code, out.str(), err.str()};
 }
 

@@ -9,32 +9,32 @@
 #include <voxlist/pointcloud_t.hpp>
 #include <voxlist/pose_t.hpp>
 
-#include "bus/convert.h"
-#include "bus/event_log.h"
-#include "desk/scan_set.h"
-#include "simulation/simulated_run.h"
+#include "tests/desk/scan_set.h"
+#include "voxlist/bus/convert.h"
+#include "voxlist/bus/event_log.h"
+#include "voxlist/simulation/run/simulated_run.h"
 
-namespace voxlist {
+namespace voxlist::desk {
 namespace {
 
 using testing::HasSubstr;
 
 template <class M>
-M decoded(const Event& event) {
+M decoded(const bus::Event& event) {
   M message;
-  EXPECT_EQ(decode(event.bytes, message), Fault::kNone);
+  EXPECT_EQ(bus::decode(event.bytes, message), bus::Fault::kNone);
   return message;
 }
 
 struct Simulate : testing::Test {
   // What a run with these settings wrote.
-  std::vector<Event> simulated(const std::string& settings, const std::string& seconds) {
+  std::vector<bus::Event> simulated(const std::string& settings, const std::string& seconds) {
     test::write_text(work / "robot.toml", settings);
     const auto done = test::run({"simulate", "-o", work / "run.lcmlog", "--config",
                                  work / "robot.toml", "--seconds", seconds});
     EXPECT_EQ(done.exit_code, 0) << done.err;
-    std::vector<Event> events;
-    EventLogReader reader(work / "run.lcmlog");
+    std::vector<bus::Event> events;
+    bus::EventLogReader reader(work / "run.lcmlog");
     while (auto event = reader.next()) events.push_back(std::move(*event));
     return events;
   }
@@ -42,9 +42,9 @@ struct Simulate : testing::Test {
   test::WorkFolder work;
 };
 
-std::map<std::string, int> counts(const std::vector<Event>& events) {
+std::map<std::string, int> counts(const std::vector<bus::Event>& events) {
   std::map<std::string, int> counts;
-  for (const Event& event : events) ++counts[event.channel];
+  for (const bus::Event& event : events) ++counts[event.channel];
   return counts;
 }
 
@@ -59,7 +59,7 @@ TEST_F(Simulate, WritesWhatTheScannersServicesWouldSendInTheOrderOfTime) {
   EXPECT_GE(found["CLOUD_SLICE"], 14 * found["CLOUD"]);
   for (std::size_t i = 1; i < events.size(); ++i)
     ASSERT_GE(events[i].utime_us, events[i - 1].utime_us);
-  for (const Event& event : events) {
+  for (const bus::Event& event : events) {
     if (event.channel != "LASER") continue;
     EXPECT_EQ(decoded<planar_lidar_t>(event).utime + 21'307, event.utime_us);
   }
@@ -76,18 +76,19 @@ TEST_F(Simulate, GivesTheSameBytesForTheSameSettings) {
 }
 
 // Root mean square of a log's cloud points from the building's surfaces, for clouds after a time.
-double rms_m(const std::vector<Event>& events, const SimulationConfig& config, double from_s) {
-  const SimulatedRun run(config);
+double rms_m(const std::vector<bus::Event>& events, const simulation::SimulationConfig& config,
+             double from_s) {
+  const simulation::SimulatedRun run(config);
   double squares = 0.0, points = 0.0;
-  for (const Event& event : events) {
+  for (const bus::Event& event : events) {
     if (event.channel != "CLOUD") continue;
-    const Cloud cloud = *from_message(decoded<pointcloud_t>(event)).cloud;
+    const Cloud cloud = *bus::from_message(decoded<pointcloud_t>(event)).cloud;
     const double t_s = static_cast<double>(cloud.utime_us - 1'700'000'000'000'000) * 1e-6;
     if (t_s < from_s) continue;
     const Pose2 T_map_base = run.truth().at(t_s);
     for (const Eigen::Vector3f& point : cloud.points) {
       double nearest = 1.0;
-      for (const Box& box : run.building().solid.boxes())
+      for (const simulation::Box& box : run.building().solid.boxes())
         nearest = std::min(nearest, box.surface_distance_m(T_map_base * point.cast<double>()));
       squares += nearest * nearest;
       ++points;
@@ -99,7 +100,7 @@ double rms_m(const std::vector<Event>& events, const SimulationConfig& config, d
 
 TEST_F(Simulate, MakesCloudsThatLieOnTheBuildingsSurfaces) {
   const std::string exact = "[simulator]\nrange_sd_m = 0.0\nodometry_errors = 0.0\n";
-  SimulationConfig config;
+  simulation::SimulationConfig config;
   config.odometry_errors = 0.0;
   const double driving = rms_m(simulated(exact, "30"), config, 25.0);
   config.stand_in_room = 1;
@@ -122,4 +123,4 @@ TEST_F(Simulate, TellsAllThatIsWrongWithTheSettingsAndWritesNothing) {
 }
 
 }  // namespace
-}  // namespace voxlist
+}  // namespace voxlist::desk

@@ -4,11 +4,11 @@
 #include <filesystem>
 #include <sstream>
 
-#include "desk/scan_set.h"
-#include "services/voxlist/console.h"
-#include "services/voxlist/progress.h"
+#include "services/voxlist/output/console.h"
+#include "services/voxlist/output/progress.h"
+#include "tests/desk/scan_set.h"
 
-namespace voxlist {
+namespace voxlist::desk {
 namespace {
 
 using testing::AllOf;
@@ -100,4 +100,4 @@ TEST(Progress, IsSilentAboutShortWork) {
 }
 
 }  // namespace
-}  // namespace voxlist
+}  // namespace voxlist::desk

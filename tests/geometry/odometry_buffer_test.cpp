@@ -1,4 +1,4 @@
-#include "geometry/odometry_buffer.h"
+#include "voxlist/geometry/odometry_buffer.h"
 
 #include <gtest/gtest.h>
 

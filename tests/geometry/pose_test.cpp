@@ -1,4 +1,4 @@
-#include "geometry/pose.h"
+#include "voxlist/geometry/pose.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
-#include "mapping/map_builder.h"
+#include "voxlist/mapping/map_builder.h"
 
 #include <gtest/gtest.h>
 
-namespace voxlist {
+namespace voxlist::mapping {
 namespace {
 
 Keyframe keyframe_at(const Pose2& pose, std::vector<Eigen::Vector3f> points) {
@@ -46,4 +46,4 @@ TEST(MapBuilder, NamesTheBlocksThatAKeyframeChanged) {
 }
 
 }  // namespace
-}  // namespace voxlist
+}  // namespace voxlist::mapping

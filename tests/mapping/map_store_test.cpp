@@ -1,4 +1,4 @@
-#include "mapping/map_store.h"
+#include "voxlist/mapping/map_store.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -7,11 +7,13 @@
 #include <fstream>
 #include <random>
 
-#include "io/file.h"
-#include "tests/services/temporary_folder.h"
+#include "tests/temporary_folder.h"
+#include "voxlist/io/files/file.h"
 
-namespace voxlist {
+namespace voxlist::mapping {
 namespace {
+
+using test::TemporaryFolder;
 
 Keyframe keyframe(int number) {
   Keyframe keyframe;
@@ -70,7 +72,7 @@ TEST(MapStore, LosesAtMostTheTornRecord) {
 TEST(MapStore, LeavesOutARecordWithAFlippedBitAndKeepsTheOthers) {
   const TemporaryFolder folder;
   const auto map = store(folder, 3);
-  std::string bytes = read_file(map / kKeyframeFile);
+  std::string bytes = io::read_file(map / kKeyframeFile);
   bytes[16 + 8 + 40] ^= 1;
   std::ofstream(map / kKeyframeFile, std::ios::binary) << bytes;
   expect_keyframes(load_map(map), {1, 2});
@@ -79,7 +81,7 @@ TEST(MapStore, LeavesOutARecordWithAFlippedBitAndKeepsTheOthers) {
 TEST(MapStore, SurvivesAnyDamage) {
   const TemporaryFolder folder;
   const auto map = store(folder, 3);
-  const std::string whole = read_file(map / kKeyframeFile);
+  const std::string whole = io::read_file(map / kKeyframeFile);
   std::mt19937 random(5);
   int read = 0, refused = 0;
   for (int i = 0; i < 2000; ++i) {
@@ -91,7 +93,7 @@ TEST(MapStore, SurvivesAnyDamage) {
     try {
       EXPECT_LE(load_map(map).keyframes.size(), 3u);
       ++read;
-    } catch (const FileError&) {
+    } catch (const io::FileError&) {
       ++refused;
     }
   }
@@ -110,7 +112,7 @@ TEST(MapStore, AFullDiskLeavesTheFileAsItWas) {
   getrlimit(RLIMIT_FSIZE, &old);
   const rlimit full{size + 20, old.rlim_max};
   setrlimit(RLIMIT_FSIZE, &full);
-  EXPECT_THROW(store.append(keyframe(2)), FileError);
+  EXPECT_THROW(store.append(keyframe(2)), io::FileError);
   setrlimit(RLIMIT_FSIZE, &old);
   std::signal(SIGXFSZ, old_handler);
   EXPECT_EQ(std::filesystem::file_size(map / kKeyframeFile), size);
@@ -120,10 +122,10 @@ TEST(MapStore, AFullDiskLeavesTheFileAsItWas) {
 
 TEST(MapStore, SaysWhatIsNoMap) {
   const TemporaryFolder folder;
-  EXPECT_THROW(load_map(folder / "none"), FileError);
+  EXPECT_THROW(load_map(folder / "none"), io::FileError);
   std::ofstream(folder / kKeyframeFile) << "something else entirely";
-  EXPECT_THROW(load_map(folder.string()), FileError);
+  EXPECT_THROW(load_map(folder.string()), io::FileError);
 }
 
 }  // namespace
-}  // namespace voxlist
+}  // namespace voxlist::mapping

@@ -4,10 +4,10 @@
 #include <random>
 #include <vector>
 
-#include "geometry/pose.h"
-#include "voxels/voxel_map.h"
+#include "voxlist/geometry/pose.h"
+#include "voxlist/voxels/voxel_map.h"
 
-namespace voxlist {
+namespace voxlist::matching {
 
 /// A furnished room, its map at 0.02 m, and a scan taken in it: a seeded stand-in for real data.
 struct SyntheticRoom {
@@ -90,4 +90,4 @@ inline SyntheticRoom synthetic_room(double length_m, double depth_m, const Pose2
   return room;
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::matching

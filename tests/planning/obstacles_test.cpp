@@ -1,4 +1,4 @@
-#include "planning/obstacles.h"
+#include "voxlist/planning/obstacles.h"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <limits>
 #include <numbers>
 
-#include "simulation/simulated_run.h"
+#include "voxlist/simulation/run/simulated_run.h"
 
-namespace voxlist {
+namespace voxlist::planning {
 namespace {
 
 constexpr double kRadPerDeg = std::numbers::pi / 180.0;
@@ -117,13 +117,13 @@ TEST(Obstacles, HaveCellsOnTheGrid) {
 TEST(Obstacles, AreNoneInAnEmptyCloud) { EXPECT_TRUE(sees_nothing(nearest_obstacles({}, {}))); }
 
 TEST(Obstacles, OfASimulatedRoomAreWhereItsWallsAndFurnitureAre) {
-  const SimulationConfig config;
-  const SimulatedRun run(config);
+  const simulation::SimulationConfig config;
+  const simulation::SimulatedRun run(config);
   const ObstacleConfig obstacle_config;
   int seen = 0;
   for (double t = 10.0; t < run.duration_s(); t += 10.0) {
     SCOPED_TRACE(t);
-    const Cloud cloud = scan_sweep(run.scanner(), run.truth(), t, config.sweep, 1);
+    const Cloud cloud = simulation::scan_sweep(run.scanner(), run.truth(), t, config.sweep, 1);
     const ObstacleScan scan = nearest_obstacles(cloud, obstacle_config);
     const Pose2 T_map_base = run.truth().at(t);
     for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
@@ -140,4 +140,4 @@ TEST(Obstacles, OfASimulatedRoomAreWhereItsWallsAndFurnitureAre) {
 }
 
 }  // namespace
-}  // namespace voxlist
+}  // namespace voxlist::planning

@@ -1,4 +1,4 @@
-#include "planning/octomap.h"
+#include "voxlist/planning/octomap.h"
 
 #include <gtest/gtest.h>
 #include <octomap/OcTree.h>
@@ -10,9 +10,9 @@
 #include <numbers>
 #include <sstream>
 
-#include "simulation/simulated_run.h"
+#include "voxlist/simulation/run/simulated_run.h"
 
-namespace voxlist {
+namespace voxlist::planning {
 namespace {
 
 using Eigen::Vector3d;
@@ -29,9 +29,9 @@ Cloud one_ray(const Eigen::Vector3f& origin, const Eigen::Vector3f& hit) {
 
 // Three sweeps of a simulated robot.
 OctomapBuilder simulated_map() {
-  SimulationConfig simulation;
+  simulation::SimulationConfig simulation;
   simulation.duration_s = 3.0;
-  SimulatedRun run(simulation);
+  simulation::SimulatedRun run(simulation);
   OctomapBuilder builder(config());
   while (const auto event = run.next())
     if (const auto* cloud = std::get_if<Cloud>(&*event))
@@ -120,9 +120,9 @@ TEST(Octomap, LeavesOutRaysThatLeaveTheTree) {
 }
 
 TEST(Octomap, EqualsOctomapsOwnInsertionWhenAllRaysStartInOnePlace) {
-  SimulationConfig simulation;
-  const SimulatedRun run(simulation);
-  Cloud cloud = scan_sweep(run.scanner(), run.truth(), 10.0, simulation.sweep, 1);
+  simulation::SimulationConfig simulation;
+  const simulation::SimulatedRun run(simulation);
+  Cloud cloud = simulation::scan_sweep(run.scanner(), run.truth(), 10.0, simulation.sweep, 1);
   cloud.origins.assign(cloud.points.size(), {0.0F, 0.0F, 0.6F});
 
   octomap::OcTree expected(0.1);
@@ -199,4 +199,4 @@ TEST_F(OctomapFiles, AreReadByTheToolsOfOctomap) {
 }
 
 }  // namespace
-}  // namespace voxlist
+}  // namespace voxlist::planning

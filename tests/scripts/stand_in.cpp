@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "service/service.h"
+#include "voxlist/service/service.h"
 
 namespace voxlist {
 namespace {
@@ -19,7 +19,7 @@ struct StandInConfig {
 
 class StandIn {
  public:
-  StandIn(Bus&, Health&, const StandInConfig& config) : config_(config) {}
+  StandIn(bus::Bus&, bus::Health&, const StandInConfig& config) : config_(config) {}
   void stop() {
     if (!config_.farewell_file.empty()) std::ofstream(config_.farewell_file) << "saved\n";
   }
@@ -33,6 +33,6 @@ class StandIn {
 
 int main(int argc, char** argv) {
   const std::string name = std::filesystem::path(argv[0]).filename();
-  return voxlist::run_service<voxlist::StandIn, voxlist::StandInConfig>(
+  return voxlist::service::run_service<voxlist::StandIn, voxlist::StandInConfig>(
       argc, argv, {name, "Stands in for a service in tests."});
 }

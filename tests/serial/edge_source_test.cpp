@@ -1,4 +1,4 @@
-#include "serial/edge_source.h"
+#include "voxlist/serial/edge_source.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -7,17 +7,19 @@
 #include <fstream>
 #include <random>
 
-#include "serial/device_time.h"
-#include "serial/edge_text.h"
-#include "serial/modem_edge_source.h"
-#include "serial/port.h"
-#include "serial/pseudo_terminal.h"
-#include "serial/reopened_edge_source.h"
-#include "serial/temporary_folder.h"
-#include "serial/text_edge_source.h"
+#include "tests/temporary_folder.h"
+#include "voxlist/serial/device_time.h"
+#include "voxlist/serial/edge_text.h"
+#include "voxlist/serial/modem_edge_source.h"
+#include "voxlist/serial/port.h"
+#include "voxlist/serial/pseudo_terminal.h"
+#include "voxlist/serial/reopened_edge_source.h"
+#include "voxlist/serial/text_edge_source.h"
 
-namespace voxlist {
+namespace voxlist::serial {
 namespace {
+
+using test::TemporaryFolder;
 
 constexpr std::int64_t kWall_us = 1'700'000'000'000'000;
 
@@ -176,4 +178,4 @@ TEST_F(TextSource, IsNoModemLine) {
 }
 
 }  // namespace
-}  // namespace voxlist
+}  // namespace voxlist::serial

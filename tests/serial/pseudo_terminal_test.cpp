@@ -1,4 +1,4 @@
-#include "serial/pseudo_terminal.h"
+#include "voxlist/serial/pseudo_terminal.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,11 +6,13 @@
 #include <filesystem>
 #include <fstream>
 
-#include "serial/serial_port.h"
-#include "serial/temporary_folder.h"
+#include "tests/temporary_folder.h"
+#include "voxlist/serial/serial_port.h"
 
-namespace voxlist {
+namespace voxlist::serial {
 namespace {
+
+using test::TemporaryFolder;
 
 namespace fs = std::filesystem;
 using testing::IsEmpty;
@@ -84,4 +86,4 @@ TEST_F(PseudoTerminalTest, SaysNoEcho) {
 }
 
 }  // namespace
-}  // namespace voxlist
+}  // namespace voxlist::serial

@@ -1,4 +1,4 @@
-#include "serial/serial_port.h"
+#include "voxlist/serial/serial_port.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,12 +10,14 @@
 #include <filesystem>
 #include <fstream>
 
-#include "serial/adapter_latency.h"
-#include "serial/pseudo_terminal.h"
-#include "serial/temporary_folder.h"
+#include "tests/temporary_folder.h"
+#include "voxlist/serial/adapter_latency.h"
+#include "voxlist/serial/pseudo_terminal.h"
 
-namespace voxlist {
+namespace voxlist::serial {
 namespace {
+
+using test::TemporaryFolder;
 
 namespace fs = std::filesystem;
 using testing::AllOf;
@@ -205,4 +207,4 @@ TEST_F(AdapterLatencyTest, IsNoMatterForOtherPorts) {
 }
 
 }  // namespace
-}  // namespace voxlist
+}  // namespace voxlist::serial

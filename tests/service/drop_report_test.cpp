@@ -1,9 +1,9 @@
-#include "service/drop_report.h"
+#include "voxlist/service/drop_report.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace voxlist {
+namespace voxlist::service {
 namespace {
 
 using ::testing::ElementsAre;
@@ -47,4 +47,4 @@ TEST(DropReport, TellsOfEachReasonByItself) {
 }
 
 }  // namespace
-}  // namespace voxlist
+}  // namespace voxlist::service

@@ -1,4 +1,4 @@
-#include "service/instance_lock.h"
+#include "voxlist/service/instance_lock.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -6,10 +6,10 @@
 
 #include <stdexcept>
 
-#include "service/run_folder.h"
-#include "service/run_folder_fixture.h"
+#include "tests/service/run_folder_fixture.h"
+#include "voxlist/service/run_folder.h"
 
-namespace voxlist {
+namespace voxlist::service {
 namespace {
 
 class Lock : public WithRunFolder {};
@@ -61,4 +61,4 @@ TEST_F(RunFolder, IsRefusedWhenItIsNoFolder) {
 }
 
 }  // namespace
-}  // namespace voxlist
+}  // namespace voxlist::service

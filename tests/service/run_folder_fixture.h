@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-namespace voxlist {
+namespace voxlist::service {
 
 /// Gives each test a run folder of its own, and takes it away again.
 class WithRunFolder : public ::testing::Test {
@@ -26,4 +26,4 @@ class WithRunFolder : public ::testing::Test {
   std::filesystem::path folder_;
 };
 
-}  // namespace voxlist
+}  // namespace voxlist::service

@@ -1,4 +1,4 @@
-#include "service/service.h"
+#include "voxlist/service/service.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,12 +7,12 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "bus/bus.h"
-#include "service/instance_lock.h"
-#include "service/run_folder_fixture.h"
+#include "tests/service/run_folder_fixture.h"
+#include "voxlist/bus/bus.h"
 #include "voxlist/pose_t.hpp"
+#include "voxlist/service/instance_lock.h"
 
-namespace voxlist {
+namespace voxlist::service {
 namespace {
 
 using ::testing::HasSubstr;
@@ -30,10 +30,11 @@ struct CounterConfig {
 // Publishes once and listens to itself; ends the process by a real SIGTERM after some ticks.
 class CounterService {
  public:
-  CounterService(Bus& bus, Health&, const CounterConfig& config) : ticks_wanted(config.ticks) {
+  CounterService(bus::Bus& bus, bus::Health&, const CounterConfig& config)
+      : ticks_wanted(config.ticks) {
     seen = {};
-    bus.subscribe(kPose, [](const pose_t&) { ++seen.messages; });
-    bus.publish(kPose, pose_t{});
+    bus.subscribe(bus::kPose, [](const pose_t&) { ++seen.messages; });
+    bus.publish(bus::kPose, pose_t{});
   }
   void tick(std::int64_t now_us) {
     seen.clock_never_went_back &= now_us >= seen.last_tick_us;
@@ -58,7 +59,7 @@ CounterService::Seen CounterService::seen;
 
 class BrokenService {
  public:
-  BrokenService(Bus&, Health&, const CounterConfig&) {
+  BrokenService(bus::Bus&, bus::Health&, const CounterConfig&) {
     throw std::runtime_error("map folder /none: cannot be made; choose another");
   }
 };
@@ -164,4 +165,4 @@ TEST_F(RunService, DoesNotStartBesideAnotherOfItsKindOnTheSameBus) {
 }
 
 }  // namespace
-}  // namespace voxlist
+}  // namespace voxlist::service

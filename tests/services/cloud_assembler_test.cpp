@@ -10,12 +10,12 @@
 #include <voxlist/pointcloud_t.hpp>
 #include <voxlist/pose_t.hpp>
 
-#include "bus/bus.h"
-#include "bus/convert.h"
-#include "bus/health.h"
 #include "services/cloud_assembler/cloud_assembler_service.h"
+#include "voxlist/bus/bus.h"
+#include "voxlist/bus/convert.h"
+#include "voxlist/bus/health.h"
 
-namespace voxlist {
+namespace voxlist::services {
 namespace {
 
 using testing::HasSubstr;
@@ -26,9 +26,9 @@ constexpr std::int64_t kStart_us = 1'700'000'000 * kSecond_us;
 
 // The service, a test that plays the sensors, and what others hear. A sweep is 1 s, 75 lines.
 struct Scene {
-  explicit Scene(const CloudAssemblerConfig& config = {}) : service(bus, health, config) {
-    bus.subscribe(kCloud, [this](const pointcloud_t& m) { clouds.push_back(m); });
-    bus.subscribe(kCloudSlice, [this](const pointcloud_t& m) { slices.push_back(m); });
+  explicit Scene(const scanner::CloudAssemblerConfig& config = {}) : service(bus, health, config) {
+    bus.subscribe(bus::kCloud, [this](const pointcloud_t& m) { clouds.push_back(m); });
+    bus.subscribe(bus::kCloudSlice, [this](const pointcloud_t& m) { slices.push_back(m); });
     service.tick(now_us);
   }
 
@@ -36,7 +36,7 @@ struct Scene {
     LaserLine line;
     line.utime_us = utime_us;
     line.ranges_m.assign(181, 2.0F);
-    bus.publish(kLaser, to_message(line));
+    bus.publish(bus::kLaser, bus::to_message(line));
   }
   void mirror(std::int64_t utime_us, bool known = true, const std::string& reason = "") {
     MirrorState state;
@@ -47,10 +47,10 @@ struct Scene {
     const double angle_rad = kPi * static_cast<double>(utime_us - kStart_us) * 1e-6;
     state.angle_rad = std::fmod(angle_rad, 2.0 * kPi);
     state.rate_radps = kPi;
-    bus.publish(kMirror, to_message(state));
+    bus.publish(bus::kMirror, bus::to_message(state));
   }
   void odometry(std::int64_t utime_us) {
-    bus.publish(kOdometry, to_message(StampedPose2{utime_us, {1.0, 2.0, 0.5}}));
+    bus.publish(bus::kOdometry, bus::to_message(StampedPose2{utime_us, {1.0, 2.0, 0.5}}));
   }
 
   struct Speaking {
@@ -84,8 +84,8 @@ struct Scene {
     return 0;
   }
 
-  Bus bus{{.url = "memq://", .prefix = ""}};
-  Health health{"cloud_assembler"};
+  bus::Bus bus{{.url = "memq://", .prefix = ""}};
+  bus::Health health{"cloud_assembler"};
   CloudAssemblerService service;
   std::int64_t now_us = kStart_us, health_us = 0;
   std::vector<pointcloud_t> clouds, slices;
@@ -144,7 +144,7 @@ TEST(CloudAssemblerService, SaysWhoIsSilent) {
 }
 
 TEST(CloudAssemblerService, DoesNotMissOdometryThatItDoesNotUse) {
-  CloudAssemblerConfig config;
+  scanner::CloudAssemblerConfig config;
   config.use_odometry = false;
   Scene scene(config);
   scene.play(160, {.odometry = false});
@@ -202,10 +202,10 @@ TEST(CloudAssemblerService, CountsMessagesThatMakeNoSense) {
 }
 
 TEST(CloudAssemblerService, DoesNotStartWithSettingsThatDoNotFitTogether) {
-  CloudAssemblerConfig config;
+  scanner::CloudAssemblerConfig config;
   config.robot_boxes_m = {1.0, 2.0};
   EXPECT_THROW(Scene{config}, std::invalid_argument);
 }
 
 }  // namespace
-}  // namespace voxlist
+}  // namespace voxlist::services

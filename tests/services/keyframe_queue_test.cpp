@@ -2,14 +2,14 @@
 
 #include <gtest/gtest.h>
 
-namespace voxlist {
+namespace voxlist::services {
 namespace {
 
 using Verdict = KeyframeQueue::Verdict;
 constexpr auto kCapacity = static_cast<std::int32_t>(KeyframeQueue::kCapacity);
 
-PosedCloud keyframe(std::int32_t index, std::int64_t map_id = 1) {
-  PosedCloud keyframe;
+bus::PosedCloud keyframe(std::int32_t index, std::int64_t map_id = 1) {
+  bus::PosedCloud keyframe;
   keyframe.map_id = map_id;
   keyframe.index = index;
   keyframe.cloud.utime_us = 1000 * map_id + index;
@@ -88,7 +88,7 @@ TEST(KeyframeQueue, StartsOverWhenTheMapperLostItsNewestAndWentOn) {
     queue.add(keyframe(index));
     queue.next();
   }
-  PosedCloud other = keyframe(1);
+  bus::PosedCloud other = keyframe(1);
   other.cloud.utime_us += 500;
   queue.add(other);
   EXPECT_EQ(queue.missing(), 0);
@@ -98,4 +98,4 @@ TEST(KeyframeQueue, StartsOverWhenTheMapperLostItsNewestAndWentOn) {
 }
 
 }  // namespace
-}  // namespace voxlist
+}  // namespace voxlist::services

@@ -11,15 +11,17 @@
 #include <voxlist/health_t.hpp>
 #include <voxlist/planar_lidar_t.hpp>
 
-#include "bus/bus.h"
-#include "bus/convert.h"
-#include "bus/health.h"
-#include "scanner/live_lms200.h"
 #include "services/laser_driver/laser_driver_service.h"
-#include "temporary_folder.h"
+#include "tests/scanner/lms200/live_lms200.h"
+#include "tests/temporary_folder.h"
+#include "voxlist/bus/bus.h"
+#include "voxlist/bus/convert.h"
+#include "voxlist/bus/health.h"
 
-namespace voxlist {
+namespace voxlist::services {
 namespace {
+
+using test::TemporaryFolder;
 
 using namespace std::chrono_literals;
 
@@ -32,7 +34,7 @@ class Device {
       : live_(link,
               [this](std::int64_t utime_us, double angle) { return measure(utime_us, angle); }) {}
 
-  void set_faults(const Lms200Faults& faults) { live_.set_faults(faults); }
+  void set_faults(const simulation::Lms200Faults& faults) { live_.set_faults(faults); }
 
   bool has_measured(const LaserLine& line) {
     const std::lock_guard lock(mutex_);
@@ -57,14 +59,15 @@ class Device {
   std::mutex mutex_;  // of what follows
   int turn_ = 0;
   std::vector<LaserLine> measured_;
-  LiveLms200 live_;
+  scanner::LiveLms200 live_;
 };
 
 class LaserDriver : public testing::Test {
  protected:
   LaserDriver() {
     config_.port = (folder_ / "lms200").string();
-    bus_.subscribe(kLaser, [this](const planar_lidar_t& m) { lines_.push_back(*from_message(m)); });
+    bus_.subscribe(bus::kLaser,
+                   [this](const planar_lidar_t& m) { lines_.push_back(*bus::from_message(m)); });
   }
 
   // Runs the service until something holds, for as long as a loaded machine may need.
@@ -73,7 +76,7 @@ class LaserDriver : public testing::Test {
     while (!holds()) {
       if (std::chrono::steady_clock::now() > end) return false;
       bus_.handle(20ms, service_->wake_fd());
-      service_->tick(wall_us());
+      service_->tick(scanner::wall_us());
     }
     return true;
   }
@@ -88,9 +91,9 @@ class LaserDriver : public testing::Test {
   }
 
   TemporaryFolder folder_;
-  Lms200Config config_;
-  Bus bus_{{.url = "memq://", .prefix = ""}};
-  Health health_{"laser_driver"};
+  scanner::Lms200Config config_;
+  bus::Bus bus_{{.url = "memq://", .prefix = ""}};
+  bus::Health health_{"laser_driver"};
   std::int64_t now_us_ = 0;
   std::vector<LaserLine> lines_;
   std::optional<Device> device_;
@@ -159,7 +162,7 @@ TEST_F(LaserDriver, StopsWhileTheDeviceIsSilent) {
   device_->set_faults({.silent = true});
   service_->stop();
   service_->stop();
-  service_->tick(wall_us());
+  service_->tick(scanner::wall_us());
   service_.reset();
 }
 
@@ -169,4 +172,4 @@ TEST_F(LaserDriver, DoesNotStartWithSettingsThatMakeNoSense) {
 }
 
 }  // namespace
-}  // namespace voxlist
+}  // namespace voxlist::services

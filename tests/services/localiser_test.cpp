@@ -9,13 +9,13 @@
 #include <voxlist/pointcloud_t.hpp>
 #include <voxlist/pose_t.hpp>
 
-#include "bus/bus.h"
-#include "bus/convert.h"
-#include "bus/health.h"
-#include "bus/map_convert.h"
 #include "services/localiser/localiser_service.h"
+#include "voxlist/bus/bus.h"
+#include "voxlist/bus/convert.h"
+#include "voxlist/bus/health.h"
+#include "voxlist/bus/map_convert.h"
 
-namespace voxlist {
+namespace voxlist::services {
 namespace {
 
 constexpr std::int64_t kStart_us = 1'700'000'000'000'000;
@@ -39,9 +39,10 @@ Cloud room(std::int64_t utime_us) {
 // The service, and a test that plays the sensors and the mapper.
 struct Scene {
   Scene() : service(bus, health, {}) {
-    bus.subscribe(kLocalisation, [this](const localisation_t& m) { localisations.push_back(m); });
-    bus.subscribe(kPose, [this](const pose_t& m) { poses.push_back(m); });
-    bus.subscribe(kMapRequest, [this](const map_request_t& m) { requests.push_back(m); });
+    bus.subscribe(bus::kLocalisation,
+                  [this](const localisation_t& m) { localisations.push_back(m); });
+    bus.subscribe(bus::kPose, [this](const pose_t& m) { poses.push_back(m); });
+    bus.subscribe(bus::kMapRequest, [this](const map_request_t& m) { requests.push_back(m); });
   }
 
   void run(std::int64_t now_us) {
@@ -51,21 +52,22 @@ struct Scene {
   }
 
   void send_map(const OccupancyMap& map, std::int64_t utime_us, std::int64_t map_id = 7) {
-    MapChange change;
+    bus::MapChange change;
     change.utime_us = utime_us;
     change.map_id = map_id;
     change.version = map.empty() ? 0 : 1;
-    change.resolution = resolution_of(map);
-    change.blocks = to_messages(map);
-    for (const auto& message : split_map(std::move(change))) bus.publish(kMapUpdate, message);
+    change.resolution = bus::resolution_of(map);
+    change.blocks = bus::to_messages(map);
+    for (const auto& message : bus::split_map(std::move(change)))
+      bus.publish(bus::kMapUpdate, message);
   }
 
   void send_cloud(std::int64_t utime_us) {
-    bus.publish(kCloud, to_message(room(utime_us), "base", 0));
+    bus.publish(bus::kCloud, bus::to_message(room(utime_us), "base", 0));
   }
 
-  Bus bus{{.url = "memq://", .prefix = ""}};
-  Health health{"localiser"};
+  bus::Bus bus{{.url = "memq://", .prefix = ""}};
+  bus::Health health{"localiser"};
   LocaliserService service;
   std::vector<localisation_t> localisations;
   std::vector<pose_t> poses;
@@ -122,13 +124,14 @@ TEST(LocaliserService, TheNextCloudWaitsForTheMappersWordButNotForEver) {
   scene.send_cloud(kStart_us + 1'000'000);
   scene.run(kStart_us + 1'000'000);
   EXPECT_EQ(scene.localisations.size(), 1u);
-  MapChange nothing_new{.utime_us = kStart_us,
-                        .map_id = 7,
-                        .version = 1,
-                        .base_version = 1,
-                        .resolution = resolution_of({}),
-                        .blocks = {}};
-  for (const auto& message : split_map(nothing_new)) scene.bus.publish(kMapUpdate, message);
+  bus::MapChange nothing_new{.utime_us = kStart_us,
+                             .map_id = 7,
+                             .version = 1,
+                             .base_version = 1,
+                             .resolution = bus::resolution_of({}),
+                             .blocks = {}};
+  for (const auto& message : bus::split_map(nothing_new))
+    scene.bus.publish(bus::kMapUpdate, message);
   scene.run(kStart_us + 1'000'001);
   EXPECT_EQ(scene.localisations.size(), 2u);
 
@@ -142,12 +145,12 @@ TEST(LocaliserService, TheNextCloudWaitsForTheMappersWordButNotForEver) {
 TEST(LocaliserService, PublishesPosesBetweenCloudsFromOdometry) {
   Scene scene;
   scene.send_map(map_of_room(), 0);
-  scene.bus.publish(kOdometry, to_message(StampedPose2{kStart_us, {10.0, 5.0, 1.0}}));
+  scene.bus.publish(bus::kOdometry, bus::to_message(StampedPose2{kStart_us, {10.0, 5.0, 1.0}}));
   scene.send_cloud(kStart_us);
   scene.run(kStart_us);
-  scene.bus.publish(
-      kOdometry,
-      to_message(StampedPose2{kStart_us + 100'000, Pose2{10.0, 5.0, 1.0} * Pose2{0.05, 0.0, 0.0}}));
+  scene.bus.publish(bus::kOdometry,
+                    bus::to_message(StampedPose2{kStart_us + 100'000,
+                                                 Pose2{10.0, 5.0, 1.0} * Pose2{0.05, 0.0, 0.0}}));
   scene.run(kStart_us + 100'000);
   ASSERT_EQ(scene.poses.size(), 2u);
   EXPECT_EQ(scene.poses[1].utime, kStart_us + 100'000);
@@ -170,4 +173,4 @@ TEST(LocaliserService, ForgetsWhereItWasWhenTheMapIsAnother) {
 }
 
 }  // namespace
-}  // namespace voxlist
+}  // namespace voxlist::services

@@ -10,15 +10,17 @@
 #include <voxlist/map_update_t.hpp>
 #include <voxlist/pointcloud_t.hpp>
 
-#include "bus/bus.h"
-#include "bus/convert.h"
-#include "bus/health.h"
-#include "bus/map_convert.h"
 #include "services/mapper/mapper_service.h"
-#include "temporary_folder.h"
+#include "tests/temporary_folder.h"
+#include "voxlist/bus/bus.h"
+#include "voxlist/bus/convert.h"
+#include "voxlist/bus/health.h"
+#include "voxlist/bus/map_convert.h"
 
-namespace voxlist {
+namespace voxlist::services {
 namespace {
+
+using test::TemporaryFolder;
 
 constexpr std::int64_t kSecond_us = 1'000'000;
 
@@ -35,14 +37,14 @@ struct Scene {
     MapperServiceConfig config;
     config.folder = folder;
     config.extend = extend;
-    bus.subscribe(kMapUpdate, [this](const map_update_t& m) { take(m); });
-    bus.subscribe(kKeyframe, [this](const keyframe_t& m) { keyframes.push_back(m); });
+    bus.subscribe(bus::kMapUpdate, [this](const map_update_t& m) { take(m); });
+    bus.subscribe(bus::kKeyframe, [this](const keyframe_t& m) { keyframes.push_back(m); });
     service.emplace(bus, health, config);
   }
 
   void take(const map_update_t& message) {
     updates.push_back(message);
-    for (const MapChange& change : assembler.add(message)) apply(change, map);
+    for (const bus::MapChange& change : assembler.add(message)) bus::apply(change, map);
   }
 
   void run() {
@@ -57,14 +59,14 @@ struct Scene {
     map_request_t message{};
     message.want = want;
     message.first = first;
-    bus.publish(kMapRequest, message);
+    bus.publish(bus::kMapRequest, message);
     run();
   }
 
   // A cloud, and what the localiser says of it.
   void drive(std::int64_t second, const Pose2& pose,
              std::int32_t state = localisation_t::STATE_TRACKING) {
-    bus.publish(kCloud, to_message(cloud_at(second * kSecond_us), "base", 0));
+    bus.publish(bus::kCloud, bus::to_message(cloud_at(second * kSecond_us), "base", 0));
     localisation_t message{};
     message.utime = second * kSecond_us;
     message.map_id = assembler.held()->map_id;
@@ -74,15 +76,15 @@ struct Scene {
     message.modes[0].pose[0] = pose.x_m;
     message.modes[0].pose[1] = pose.y_m;
     message.modes[0].pose[2] = pose.yaw_rad;
-    bus.publish(kLocalisation, message);
+    bus.publish(bus::kLocalisation, message);
     run();
   }
 
-  Bus bus{{.url = "memq://", .prefix = ""}};
-  Health health{"mapper"};
+  bus::Bus bus{{.url = "memq://", .prefix = ""}};
+  bus::Health health{"mapper"};
   std::optional<MapperService> service;
   std::int64_t now_us = 1'700'000'000 * kSecond_us;
-  MapAssembler assembler;
+  bus::MapAssembler assembler;
   OccupancyMap map;
   std::vector<map_update_t> updates;
   std::vector<keyframe_t> keyframes;
@@ -111,7 +113,7 @@ TEST(Mapper, AddsSureCloudsThatMovedAndAnswersEveryLocalisation) {
   EXPECT_EQ(scene.assembler.held()->version, 2);
   EXPECT_FALSE(scene.assembler.needs_request());
 
-  MapBuilder expected;
+  mapping::MapBuilder expected;
   expected.add({to_pose3({}), cloud_at(1)});
   expected.add({to_pose3({1.0, 0.0, 0.0}), cloud_at(4)});
   EXPECT_EQ(scene.map.occupied.hash(), expected.map().occupied.hash());
@@ -139,7 +141,7 @@ TEST(Mapper, ADeadMappersMapIsThereAgainAtItsNextStart) {
   EXPECT_EQ(second.map.occupied.hash(), map.occupied.hash());
   EXPECT_EQ(second.map.passed.hash(), map.passed.hash());
   second.drive(3, {2.0, 0.0, 0.0});
-  EXPECT_EQ(load_map(folder.string()).keyframes.size(), 3u);
+  EXPECT_EQ(mapping::load_map(folder.string()).keyframes.size(), 3u);
 }
 
 TEST(Mapper, SendsKeyframesFromTheOneThatWasMissed) {
@@ -195,7 +197,7 @@ TEST(Mapper, SendsKeyframesOnceWhenManyAskAtOnce) {
   scene.keyframes.clear();
   map_request_t message{};
   message.want = map_request_t::WANT_KEYFRAMES;
-  for (int i = 0; i < 5; ++i) scene.bus.publish(kMapRequest, message);
+  for (int i = 0; i < 5; ++i) scene.bus.publish(bus::kMapRequest, message);
   scene.run();
   EXPECT_EQ(scene.keyframes.size(), 4u);
 }
@@ -222,15 +224,15 @@ TEST(Mapper, KeepsADamagedFileAsideAndGoesOnWithTheWholeKeyframes) {
     scene.drive(1, {});
     scene.drive(2, {1.0, 0.0, 0.0});
   }
-  const auto file = folder / kKeyframeFile;
+  const auto file = folder / mapping::kKeyframeFile;
   std::filesystem::resize_file(file, std::filesystem::file_size(file) - 3);
   Scene scene(folder.string());
   scene.request(map_request_t::WANT_MAP);
   EXPECT_EQ(scene.assembler.held()->version, 1);
-  EXPECT_TRUE(std::filesystem::exists(folder / (std::string(kKeyframeFile) + ".damaged")));
+  EXPECT_TRUE(std::filesystem::exists(folder / (std::string(mapping::kKeyframeFile) + ".damaged")));
   scene.drive(3, {2.0, 0.0, 0.0});
-  EXPECT_TRUE(load_map(folder.string()).warning.empty());
+  EXPECT_TRUE(mapping::load_map(folder.string()).warning.empty());
 }
 
 }  // namespace
-}  // namespace voxlist
+}  // namespace voxlist::services

@@ -11,17 +11,19 @@
 #include <voxlist/mirror_state_t.hpp>
 #include <voxlist/planar_lidar_t.hpp>
 
-#include "bus/bus.h"
-#include "bus/convert.h"
-#include "bus/health.h"
-#include "geometry/pose.h"
-#include "serial/pseudo_terminal.h"
 #include "services/mirror_monitor/mirror_monitor_service.h"
 #include "services/mirror_monitor/open_edge_source.h"
-#include "services/temporary_folder.h"
+#include "tests/temporary_folder.h"
+#include "voxlist/bus/bus.h"
+#include "voxlist/bus/convert.h"
+#include "voxlist/bus/health.h"
+#include "voxlist/geometry/pose.h"
+#include "voxlist/serial/pseudo_terminal.h"
 
-namespace voxlist {
+namespace voxlist::services {
 namespace {
+
+using test::TemporaryFolder;
 
 constexpr std::int64_t kWall_us = 1'700'000'000'000'000;
 constexpr double kDeg = std::numbers::pi / 180.0;
@@ -35,7 +37,7 @@ struct Scanner {
       config.clock = "text:" + (folder / "clock").string();
       monitor.emplace(bus, health, config, [this] { return now_us(); });
     }
-    bus.subscribe(kMirror, [this](const mirror_state_t& m) { mirror = m; });
+    bus.subscribe(bus::kMirror, [this](const mirror_state_t& m) { mirror = m; });
   }
 
   std::int64_t now_us() const { return kWall_us + std::llround(time_s * 1e6); }
@@ -50,7 +52,7 @@ struct Scanner {
       if (first || second)
         line.ranges_m[i] = static_cast<float>(0.04 / std::sin(line.angle_rad(i)));
     }
-    return to_message(line);
+    return bus::to_message(line);
   }
 
   void until(double end_s) {
@@ -59,7 +61,7 @@ struct Scanner {
         const std::string text = std::to_string(edge * 5000) + "\n";
         if (clock) clock->write({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
       }
-      bus.publish(kLaser, line());
+      bus.publish(bus::kLaser, line());
       bus.handle(std::chrono::milliseconds(0), monitor->wake_fd());
       bus.handle(std::chrono::milliseconds(0));
       monitor->tick(now_us());
@@ -80,9 +82,9 @@ struct Scanner {
   }
 
   TemporaryFolder folder;
-  std::optional<PseudoTerminal> clock{std::in_place, folder / "clock"};
-  Bus bus{{.url = "memq://", .prefix = ""}};
-  Health health{"mirror_monitor"};
+  std::optional<serial::PseudoTerminal> clock{std::in_place, folder / "clock"};
+  bus::Bus bus{{.url = "memq://", .prefix = ""}};
+  bus::Health health{"mirror_monitor"};
   std::optional<MirrorMonitorService> monitor;
   std::optional<mirror_state_t> mirror;
   double time_s = 0.0;
@@ -156,7 +158,7 @@ TEST(MirrorMonitor, CountsLinesThatMakeNoSense) {
   Scanner scanner;
   planar_lidar_t line = scanner.line();
   line.utime = -1;
-  scanner.bus.publish(kLaser, line);
+  scanner.bus.publish(bus::kLaser, line);
   scanner.bus.handle(std::chrono::milliseconds(0));
   EXPECT_FALSE(scanner.mirror);
   EXPECT_EQ(scanner.counted(scanner.told(), "LASER/bad_line"), 1);
@@ -183,4 +185,4 @@ TEST(MirrorMonitor, SaysWhatIsWrongWithAPinThatIsNotThere) {
 }
 
 }  // namespace
-}  // namespace voxlist
+}  // namespace voxlist::services

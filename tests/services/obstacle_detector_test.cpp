@@ -10,13 +10,13 @@
 #include <voxlist/pointcloud_t.hpp>
 #include <voxlist/pose_t.hpp>
 
-#include "bus/bus.h"
-#include "bus/convert.h"
-#include "bus/health.h"
 #include "services/obstacle_detector/obstacle_detector_service.h"
 #include "services/simulator/simulator_service.h"
+#include "voxlist/bus/bus.h"
+#include "voxlist/bus/convert.h"
+#include "voxlist/bus/health.h"
 
-namespace voxlist {
+namespace voxlist::services {
 namespace {
 
 constexpr std::int64_t kSecond_us = 1'000'000;
@@ -27,11 +27,11 @@ pointcloud_t cloud_with_post(float range_m, std::int64_t utime_us) {
   cloud.utime_us = utime_us;
   for (const float height_m : {0.5F, 0.52F, 0.54F})
     cloud.points.emplace_back(range_m, 0.0F, height_m);
-  return to_message(cloud, "base", 0);
+  return bus::to_message(cloud, "base", 0);
 }
 
 // How far the building is free along a bearing, from the robot's true pose.
-double free_m(const Building& building, const Pose2& T_map_base, double bearing_rad) {
+double free_m(const simulation::Building& building, const Pose2& T_map_base, double bearing_rad) {
   for (double range_m = 0.0;; range_m += 0.01) {
     const Eigen::Vector3d p = T_map_base * Eigen::Vector3d(range_m * std::cos(bearing_rad),
                                                            range_m * std::sin(bearing_rad), 0.0);
@@ -41,8 +41,8 @@ double free_m(const Building& building, const Pose2& T_map_base, double bearing_
 
 // A detector, and what others hear of it.
 struct Heard {
-  explicit Heard(const ObstacleConfig& config = {}) : detector(bus, health, config) {
-    bus.subscribe(kObstacles, [this](const obstacles_t& m) { obstacles.push_back(m); });
+  explicit Heard(const planning::ObstacleConfig& config = {}) : detector(bus, health, config) {
+    bus.subscribe(bus::kObstacles, [this](const obstacles_t& m) { obstacles.push_back(m); });
   }
 
   // Until what has been published is detected, and what was detected is heard.
@@ -57,8 +57,8 @@ struct Heard {
     return 0;
   }
 
-  Bus bus{{.url = "memq://", .prefix = ""}};
-  Health health{"obstacle_detector"};
+  bus::Bus bus{{.url = "memq://", .prefix = ""}};
+  bus::Health health{"obstacle_detector"};
   ObstacleDetectorService detector;
   std::vector<obstacles_t> obstacles;
 };
@@ -68,10 +68,10 @@ TEST(ObstacleDetector, PublishesTheNearestWallOfTheSimulatedRoom) {
   SimulatorConfig config;
   config.output = "cloud";
   config.simulation.perfect_deskew = true;
-  Health simulator_health("simulator");
+  bus::Health simulator_health("simulator");
   SimulatorService simulator(heard.bus, simulator_health, config);
   std::optional<pose_t> truth;
-  heard.bus.subscribe(kTruth, [&](const pose_t& m) { truth = m; });
+  heard.bus.subscribe(bus::kTruth, [&](const pose_t& m) { truth = m; });
   simulator.tick(0);
   simulator.tick(kSecond_us);
   heard.handle();
@@ -81,8 +81,8 @@ TEST(ObstacleDetector, PublishesTheNearestWallOfTheSimulatedRoom) {
   const obstacles_t& message = heard.obstacles[0];
   EXPECT_EQ(message.utime, truth->utime);
   ASSERT_EQ(message.n_bearings, 360);
-  const Building building = make_building(config.simulation.building);
-  const Pose2 T_map_base = to_pose2(from_message(*truth)->pose);
+  const simulation::Building building = simulation::make_building(config.simulation.building);
+  const Pose2 T_map_base = to_pose2(bus::from_message(*truth)->pose);
   for (const std::size_t sector : {30u, 150u, 180u, 210u, 330u}) {
     const double bearing_rad = message.rad0 + static_cast<float>(sector) * message.radstep;
     EXPECT_NEAR(message.ranges_m[sector], free_m(building, T_map_base, bearing_rad), 0.1) << sector;
@@ -93,11 +93,11 @@ TEST(ObstacleDetector, PublishesTheNearestWallOfTheSimulatedRoom) {
 }
 
 TEST(ObstacleDetector, SaysWhichHeightsItLookedAt) {
-  ObstacleConfig config;
+  planning::ObstacleConfig config;
   config.min_height_m = 0.25;
   config.max_height_m = 1.75;
   Heard heard(config);
-  heard.bus.publish(kCloud, cloud_with_post(2.0F, 5));
+  heard.bus.publish(bus::kCloud, cloud_with_post(2.0F, 5));
   heard.handle();
   ASSERT_EQ(heard.obstacles.size(), 1u);
   EXPECT_FLOAT_EQ(heard.obstacles[0].min_height_m, 0.25F);
@@ -107,7 +107,8 @@ TEST(ObstacleDetector, SaysWhichHeightsItLookedAt) {
 
 TEST(ObstacleDetector, LooksOnlyAtTheNewestOfTheCloudsThatWait) {
   Heard heard;
-  for (int i = 1; i <= 3; ++i) heard.bus.publish(kCloud, cloud_with_post(static_cast<float>(i), i));
+  for (int i = 1; i <= 3; ++i)
+    heard.bus.publish(bus::kCloud, cloud_with_post(static_cast<float>(i), i));
   heard.handle();
   ASSERT_EQ(heard.obstacles.size(), 1u);
   EXPECT_EQ(heard.obstacles[0].utime, 3);
@@ -116,14 +117,14 @@ TEST(ObstacleDetector, LooksOnlyAtTheNewestOfTheCloudsThatWait) {
 
 TEST(ObstacleDetector, CountsWhatItRefusesAndGoesOn) {
   Heard heard;
-  heard.bus.publish(kCloud, cloud_with_post(2.0F, -1));
+  heard.bus.publish(bus::kCloud, cloud_with_post(2.0F, -1));
   heard.handle();
   EXPECT_TRUE(heard.obstacles.empty());
   EXPECT_EQ(heard.counted("CLOUD/bad_utime"), 1);
 
   pointcloud_t one_bad_point = cloud_with_post(2.0F, 7);
   one_bad_point.points[0][1] = NAN;
-  heard.bus.publish(kCloud, one_bad_point);
+  heard.bus.publish(bus::kCloud, one_bad_point);
   heard.handle();
   ASSERT_EQ(heard.obstacles.size(), 1u);
   EXPECT_FLOAT_EQ(heard.obstacles[0].ranges_m[0], 2.0F);
@@ -134,16 +135,17 @@ TEST(ObstacleDetector, TellsHowLongACloudTook) {
   heard.detector.tick(kSecond_us);
   EXPECT_EQ(heard.health.due(kSecond_us)->latency_max_ms, -1.0F);
   std::int64_t arrival_us = 0;
-  heard.bus.subscribe(kHealth, [&](const health_t&) { arrival_us = heard.bus.arrival_utime_us(); });
-  heard.bus.publish(kHealth, *heard.health.due(2 * kSecond_us));
-  heard.bus.publish(kCloud, cloud_with_post(2.0F, 1));
+  heard.bus.subscribe(bus::kHealth,
+                      [&](const health_t&) { arrival_us = heard.bus.arrival_utime_us(); });
+  heard.bus.publish(bus::kHealth, *heard.health.due(2 * kSecond_us));
+  heard.bus.publish(bus::kCloud, cloud_with_post(2.0F, 1));
   heard.handle();
   heard.detector.tick(arrival_us + 3600 * kSecond_us);
   EXPECT_NEAR(heard.health.due(3 * kSecond_us)->latency_max_ms, 3.6e6F, 1e5F);
 }
 
 TEST(ObstacleDetector, DoesNotStartWhenItCouldNeverSeeAnything) {
-  ObstacleConfig upside_down, inside_out;
+  planning::ObstacleConfig upside_down, inside_out;
   upside_down.min_height_m = 1.5;
   inside_out.min_range_m = 50.0;
   EXPECT_THROW(Heard{upside_down}, std::invalid_argument);
@@ -151,4 +153,4 @@ TEST(ObstacleDetector, DoesNotStartWhenItCouldNeverSeeAnything) {
 }
 
 }  // namespace
-}  // namespace voxlist
+}  // namespace voxlist::services

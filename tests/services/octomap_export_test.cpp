@@ -14,26 +14,28 @@
 #include <voxlist/map_octree_t.hpp>
 #include <voxlist/map_request_t.hpp>
 
-#include "bus/bus.h"
-#include "bus/convert.h"
-#include "bus/health.h"
 #include "services/octomap_export/octomap_export_service.h"
-#include "temporary_folder.h"
+#include "tests/temporary_folder.h"
+#include "voxlist/bus/bus.h"
+#include "voxlist/bus/convert.h"
+#include "voxlist/bus/health.h"
 
-namespace voxlist {
+namespace voxlist::services {
 namespace {
+
+using test::TemporaryFolder;
 
 constexpr std::int64_t kSecond_us = 1'000'000;
 constexpr float kHeight_m = 0.55F;
 
 // A ray along x at y = index + 0.55 m, which hits at x = 1.05 m; the pose shifts it by index.
 keyframe_t keyframe(std::int32_t index, std::int64_t map_id = 7) {
-  PosedCloud keyframe;
+  bus::PosedCloud keyframe;
   keyframe.map_id = map_id;
   keyframe.index = index;
   keyframe.T_map_base.translation() << 0.0, index, 0.0;
   keyframe.cloud = {100 * map_id + index, {{1.05F, 0.55F, kHeight_m}}, {{0.05F, 0.55F, kHeight_m}}};
-  return to_message(keyframe);
+  return bus::to_message(keyframe);
 }
 
 // What OctoMap itself reads from the bytes of a .bt file.
@@ -84,8 +86,8 @@ class FullDisk {
 class OctomapExport : public testing::Test {
  protected:
   OctomapExport() {
-    bus_.subscribe(kOctomap, [this](const map_octree_t& m) { octomaps_.push_back(m); });
-    bus_.subscribe(kMapRequest, [this](const map_request_t& m) { requests_.push_back(m); });
+    bus_.subscribe(bus::kOctomap, [this](const map_octree_t& m) { octomaps_.push_back(m); });
+    bus_.subscribe(bus::kMapRequest, [this](const map_request_t& m) { requests_.push_back(m); });
   }
 
   void start() { service_.emplace(bus_, health_, config_); }
@@ -96,7 +98,7 @@ class OctomapExport : public testing::Test {
   }
 
   void publish(std::initializer_list<std::int32_t> indices, std::int64_t map_id = 7) {
-    for (const std::int32_t index : indices) bus_.publish(kKeyframe, keyframe(index, map_id));
+    for (const std::int32_t index : indices) bus_.publish(bus::kKeyframe, keyframe(index, map_id));
     bus_.handle(std::chrono::milliseconds(0));
   }
 
@@ -120,8 +122,8 @@ class OctomapExport : public testing::Test {
 
   TemporaryFolder folder_;
   OctomapExportConfig config_;
-  Bus bus_{{.url = "memq://", .prefix = ""}};
-  Health health_{"octomap_export"};
+  bus::Bus bus_{{.url = "memq://", .prefix = ""}};
+  bus::Health health_{"octomap_export"};
   std::optional<OctomapExportService> service_;
   std::int64_t now_us_ = kSecond_us, health_us_ = 0;
   std::vector<map_octree_t> octomaps_;
@@ -245,7 +247,7 @@ TEST_F(OctomapExport, RefusesAKeyframeWithoutAPose) {
   start();
   keyframe_t bad = keyframe(0);
   bad.quat[0] = 0.0;
-  bus_.publish(kKeyframe, bad);
+  bus_.publish(bus::kKeyframe, bad);
   run(1.0);
   EXPECT_TRUE(octomaps_.empty());
   const health_t told = health();
@@ -305,10 +307,10 @@ TEST_F(OctomapExport, WritesFilesOnlyOnStopIfToldSo) {
 TEST_F(OctomapExport, KeepsTheFilesOfBeforeItWasKilledWhileItCatchesUp) {
   config_.save_period_s = 10.0;
   {
-    Bus bus({.url = "memq://", .prefix = ""});
+    bus::Bus bus({.url = "memq://", .prefix = ""});
     config_.folder = (folder_ / "map").string();
     OctomapExportService before(bus, health_, config_);
-    for (const std::int32_t index : {0, 1, 2}) bus.publish(kKeyframe, keyframe(index));
+    for (const std::int32_t index : {0, 1, 2}) bus.publish(bus::kKeyframe, keyframe(index));
     bus.handle(std::chrono::milliseconds(0));
     for (int i = 0; i < 3; ++i) before.tick(i);
     before.stop();
@@ -346,4 +348,4 @@ TEST_F(OctomapExport, KeepsRunningWhenTheDiskIsFull) {
 }
 
 }  // namespace
-}  // namespace voxlist
+}  // namespace voxlist::services

@@ -10,8 +10,6 @@
 #include <set>
 #include <string>
 
-#include "config/config.h"
-#include "config/tables.h"
 #include "services/cloud_assembler/cloud_assembler_service.h"
 #include "services/laser_driver/laser_driver_service.h"
 #include "services/localiser/localiser_service.h"
@@ -21,8 +19,10 @@
 #include "services/octomap_export/octomap_export_service.h"
 #include "services/scan_source/scan_source_service.h"
 #include "services/simulator/simulator_service.h"
+#include "voxlist/config/config.h"
+#include "voxlist/config/tables.h"
 
-namespace voxlist {
+namespace voxlist::services {
 namespace {
 
 namespace fs = std::filesystem;
@@ -38,19 +38,19 @@ std::string read(const fs::path& path) {
 template <class Config>
 std::string table_of() {
   Config config;
-  return markdown_table(section("", config));
+  return config::markdown_table(config::section("", config));
 }
 
 const std::map<std::string, std::string> kServiceTables = {
     {"simulator", table_of<SimulatorConfig>()},
-    {"laser_driver", table_of<Lms200Config>()},
+    {"laser_driver", table_of<scanner::Lms200Config>()},
     {"mirror_monitor", table_of<MirrorMonitorConfig>()},
-    {"cloud_assembler", table_of<CloudAssemblerConfig>()},
+    {"cloud_assembler", table_of<scanner::CloudAssemblerConfig>()},
     {"scan_source", table_of<ScanSourceConfig>()},
     {"localiser", table_of<LocaliserServiceConfig>()},
     {"mapper", table_of<MapperServiceConfig>()},
     {"octomap_export", table_of<OctomapExportConfig>()},
-    {"obstacle_detector", table_of<ObstacleConfig>()},
+    {"obstacle_detector", table_of<planning::ObstacleConfig>()},
 };
 
 std::set<std::string> service_folders() {
@@ -91,7 +91,7 @@ TEST(ServiceReadme, OfAllServicesHasARowForEach) {
 TEST(ServiceReadme, OfAllServicesKeepsTheOrderOfTheSettingsTables) {
   const std::string map = read(kServices / "README.md");
   std::size_t last = 0;
-  for (const std::string& table : kTables) {
+  for (const std::string& table : config::kTables) {
     if (table == "bus") continue;
     const std::size_t row = map.find("| [" + table + "]");
     ASSERT_NE(row, std::string::npos) << table;
@@ -101,4 +101,4 @@ TEST(ServiceReadme, OfAllServicesKeepsTheOrderOfTheSettingsTables) {
 }
 
 }  // namespace
-}  // namespace voxlist
+}  // namespace voxlist::services

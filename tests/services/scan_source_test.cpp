@@ -8,15 +8,17 @@
 #include <voxlist/pointcloud_t.hpp>
 #include <voxlist/pose_t.hpp>
 
-#include "bus/bus.h"
-#include "bus/convert.h"
-#include "bus/health.h"
-#include "io/cloud_file.h"
 #include "services/scan_source/scan_source_service.h"
-#include "temporary_folder.h"
+#include "tests/temporary_folder.h"
+#include "voxlist/bus/bus.h"
+#include "voxlist/bus/convert.h"
+#include "voxlist/bus/health.h"
+#include "voxlist/io/clouds/cloud_file.h"
 
-namespace voxlist {
+namespace voxlist::services {
 namespace {
+
+using test::TemporaryFolder;
 
 constexpr std::int64_t kStart_us = 1'700'000'000'000'000;
 constexpr std::int64_t kSecond_us = 1'000'000;
@@ -30,14 +32,14 @@ class ScanSource : public testing::Test {
       Cloud cloud;
       cloud.points.emplace_back(static_cast<float>(i), 0.0F, 0.5F);
       cloud.origins.emplace_back(0.0F, 0.0F, 0.25F);
-      write_ply(scan(i), cloud);
+      io::write_ply(scan(i), cloud);
     }
-    bus_.subscribe(kCloud, [this](const pointcloud_t& m) {
+    bus_.subscribe(bus::kCloud, [this](const pointcloud_t& m) {
       clouds_.push_back(m);
       odometry_before_cloud_.push_back(odometry_.size());
     });
-    bus_.subscribe(kOdometry, [this](const pose_t& m) { odometry_.push_back(m); });
-    bus_.subscribe(kTruth, [this](const pose_t& m) { truth_.push_back(m); });
+    bus_.subscribe(bus::kOdometry, [this](const pose_t& m) { odometry_.push_back(m); });
+    bus_.subscribe(bus::kTruth, [this](const pose_t& m) { truth_.push_back(m); });
   }
 
   std::filesystem::path scan(int i) const {
@@ -60,8 +62,8 @@ class ScanSource : public testing::Test {
 
   TemporaryFolder folder_;
   ScanSourceConfig config_;
-  Bus bus_{{.url = "memq://", .prefix = ""}};
-  Health health_{"scan_source"};
+  bus::Bus bus_{{.url = "memq://", .prefix = ""}};
+  bus::Health health_{"scan_source"};
   std::optional<ScanSourceService> source_;
   std::int64_t now_us_ = 0;
   std::vector<pointcloud_t> clouds_;
@@ -91,7 +93,7 @@ TEST_F(ScanSource, PublishesWhatIsInTheFiles) {
     const pointcloud_t& message = clouds_[static_cast<std::size_t>(i)];
     EXPECT_EQ(message.seq, i);
     EXPECT_EQ(message.frame_id, "base");
-    const ReceivedCloud received = from_message(message);
+    const bus::ReceivedCloud received = bus::from_message(message);
     ASSERT_TRUE(received.cloud);
     ASSERT_EQ(received.cloud->points.size(), 1u);
     EXPECT_EQ(received.cloud->points[0].x(), static_cast<float>(i));
@@ -168,7 +170,7 @@ TEST_F(ScanSource, LoopsWithTimesThatGoOn) {
   ASSERT_EQ(clouds_.size(), 5u);
   for (std::size_t i = 0; i < 5; ++i)
     EXPECT_EQ(clouds_[i].utime, static_cast<std::int64_t>(i) * kSecond_us);
-  EXPECT_EQ(from_message(clouds_[3]).cloud->points[0].x(), 0.0F);
+  EXPECT_EQ(bus::from_message(clouds_[3]).cloud->points[0].x(), 0.0F);
 }
 
 TEST_F(ScanSource, LeavesOutOdometryFromLongBeforeTheScans) {
@@ -182,12 +184,12 @@ TEST_F(ScanSource, LeavesOutOdometryFromLongBeforeTheScans) {
 
 TEST_F(ScanSource, DoesNotStartWithoutAFolderNorWithOdometryOfAnotherTime) {
   write("odometry.csv", "t,x,y,yaw\n1700000000,0,0,0\n1700000001,0,0,0\n");
-  EXPECT_THROW(start(), FileError);
+  EXPECT_THROW(start(), io::FileError);
   config_.folder.clear();
   EXPECT_THROW(start(), std::invalid_argument);
   config_.folder = (folder_ / "none").string();
-  EXPECT_THROW(start(), FileError);
+  EXPECT_THROW(start(), io::FileError);
 }
 
 }  // namespace
-}  // namespace voxlist
+}  // namespace voxlist::services

@@ -8,22 +8,24 @@
 #include <memory>
 #include <string>
 
-#include "scanner/lms200_telegram.h"
-#include "serial/serial_port.h"
 #include "services/simulator/laser_faults.h"
 #include "services/simulator/usb_adapter.h"
-#include "services/temporary_folder.h"
-#include "simulation/simulated_run.h"
+#include "tests/temporary_folder.h"
+#include "voxlist/scanner/lms200/lms200_telegram.h"
+#include "voxlist/serial/serial_port.h"
+#include "voxlist/simulation/run/simulated_run.h"
 
-namespace voxlist {
+namespace voxlist::services {
 namespace {
+
+using test::TemporaryFolder;
 
 constexpr std::int64_t kStart_us = 1'700'000'000'000'000;
 constexpr std::int64_t kSecond_us = 1'000'000;
 
-SimulationConfig standing() {
-  SimulationConfig config;
-  config.scans = SimulationConfig::Scans::kNothing;
+simulation::SimulationConfig standing() {
+  simulation::SimulationConfig config;
+  config.scans = simulation::SimulationConfig::Scans::kNothing;
   config.stand_in_room = 0;
   return config;
 }
@@ -34,8 +36,8 @@ struct Host {
     config.laser_port = folder / "laser";
     config.clock_port = folder / "clock";
     ports = std::make_unique<ScannerPorts>(run.scanner(), config, kStart_us);
-    laser = std::make_unique<SerialPort>(config.laser_port, 9600);
-    clock = std::make_unique<SerialPort>(config.clock_port, 115'200);
+    laser = std::make_unique<serial::SerialPort>(config.laser_port, 9600);
+    clock = std::make_unique<serial::SerialPort>(config.clock_port, 115'200);
   }
 
   // Lets time pass, and hears what comes.
@@ -51,25 +53,28 @@ struct Host {
 
   int telegrams(std::uint8_t command) const {
     int count = 0;
-    for (const Lms200Event& event : events)
-      count += event.kind == Lms200Event::Kind::kTelegram && event.telegram.command == command;
+    for (const scanner::Lms200Event& event : events)
+      count +=
+          event.kind == scanner::Lms200Event::Kind::kTelegram && event.telegram.command == command;
     return count;
   }
 
   TemporaryFolder folder;
   SimulatorConfig config;
-  SimulatedRun run{standing()};
+  simulation::SimulatedRun run{standing()};
   std::unique_ptr<ScannerPorts> ports;
-  std::unique_ptr<SerialPort> laser, clock;
+  std::unique_ptr<serial::SerialPort> laser, clock;
   std::int64_t now_us = kStart_us;
-  Lms200Parser parser;
-  std::vector<Lms200Event> events;
+  scanner::Lms200Parser parser;
+  std::vector<scanner::Lms200Event> events;
   std::string text;
 };
 
 constexpr std::uint8_t kPowerOn = 0x90, kStatus = 0xB1;
 
-void ask_for_status(Host& host) { host.laser->write(encode(Lms200Telegram{0x00, 0x31, {}})); }
+void ask_for_status(Host& host) {
+  host.laser->write(encode(scanner::Lms200Telegram{0x00, 0x31, {}}));
+}
 
 TEST(ScannerPorts, AreAnLms200ThatAnswersItsHost) {
   Host host;
@@ -141,4 +146,4 @@ TEST(UsbAdapter, GivesBytesAtOnceWithoutATimer) {
 }
 
 }  // namespace
-}  // namespace voxlist
+}  // namespace voxlist::services

@@ -8,14 +8,16 @@
 #include <voxlist/pointcloud_t.hpp>
 #include <voxlist/pose_t.hpp>
 
-#include "bus/bus.h"
-#include "bus/convert.h"
-#include "bus/health.h"
 #include "services/simulator/simulator_service.h"
-#include "services/temporary_folder.h"
+#include "tests/temporary_folder.h"
+#include "voxlist/bus/bus.h"
+#include "voxlist/bus/convert.h"
+#include "voxlist/bus/health.h"
 
-namespace voxlist {
+namespace voxlist::services {
 namespace {
+
+using test::TemporaryFolder;
 
 constexpr std::int64_t kStart_us = 1'700'000'000'000'000;
 
@@ -25,9 +27,9 @@ struct Heard {
     config.output = "cloud";
     config.speed = speed;
     config.simulation.duration_s = 3.0;
-    bus.subscribe(kCloud, [this](const pointcloud_t& m) { clouds.push_back(m); });
-    bus.subscribe(kOdometry, [this](const pose_t& m) { odometry.push_back(m); });
-    bus.subscribe(kTruth, [this](const pose_t& m) { truth.push_back(m); });
+    bus.subscribe(bus::kCloud, [this](const pointcloud_t& m) { clouds.push_back(m); });
+    bus.subscribe(bus::kOdometry, [this](const pose_t& m) { odometry.push_back(m); });
+    bus.subscribe(bus::kTruth, [this](const pose_t& m) { truth.push_back(m); });
     simulator.emplace(bus, health, config);
   }
 
@@ -37,8 +39,8 @@ struct Heard {
   }
 
   SimulatorConfig config;
-  Bus bus{{.url = "memq://", .prefix = ""}};
-  Health health{"simulator"};
+  bus::Bus bus{{.url = "memq://", .prefix = ""}};
+  bus::Health health{"simulator"};
   std::optional<SimulatorService> simulator;
   std::vector<pointcloud_t> clouds;
   std::vector<pose_t> odometry, truth;
@@ -74,7 +76,7 @@ TEST(Simulator, PublishesCloudsInBaseWithTheirOriginsCountedFromZero) {
     const pointcloud_t& message = heard.clouds[static_cast<std::size_t>(i)];
     EXPECT_EQ(message.seq, i);
     EXPECT_EQ(message.frame_id, "base");
-    const ReceivedCloud received = from_message(message);
+    const bus::ReceivedCloud received = bus::from_message(message);
     ASSERT_TRUE(received.cloud);
     EXPECT_GT(received.cloud->points.size(), 4000u);
     EXPECT_EQ(received.cloud->origins.size(), received.cloud->points.size());
@@ -98,14 +100,14 @@ struct ScannerSimulator {
     config.laser_port = folder / "laser";
     config.clock_port = folder / "clock";
     config.simulation.duration_s = 3.0;
-    bus.subscribe(kCloud, [this](const pointcloud_t&) { ++clouds; });
-    bus.subscribe(kTruth, [this](const pose_t& m) { truth.push_back(m); });
+    bus.subscribe(bus::kCloud, [this](const pointcloud_t&) { ++clouds; });
+    bus.subscribe(bus::kTruth, [this](const pose_t& m) { truth.push_back(m); });
   }
 
   TemporaryFolder folder;
   SimulatorConfig config;
-  Bus bus{{.url = "memq://", .prefix = ""}};
-  Health health{"simulator"};
+  bus::Bus bus{{.url = "memq://", .prefix = ""}};
+  bus::Health health{"simulator"};
   int clouds = 0;
   std::vector<pose_t> truth;
 };
@@ -132,4 +134,4 @@ TEST(Simulator, RefusesAnOutputThatIsNoneAndPortsThatAreFasterThanReal) {
 }
 
 }  // namespace
-}  // namespace voxlist
+}  // namespace voxlist::services

@@ -1,10 +1,10 @@
-#include "simulation/random.h"
+#include "voxlist/simulation/random.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-namespace voxlist {
+namespace voxlist::simulation {
 namespace {
 
 TEST(Random, GivesTheSameBitsEverywhere) {
@@ -46,4 +46,4 @@ TEST(Random, IsNormalWithMeanZeroAndDeviationOne) {
 }
 
 }  // namespace
-}  // namespace voxlist
+}  // namespace voxlist::simulation

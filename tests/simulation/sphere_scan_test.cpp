@@ -1,11 +1,11 @@
-#include "simulation/sphere_scan.h"
+#include "tests/simulation/sphere_scan.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-namespace voxlist {
+namespace voxlist::simulation {
 namespace {
 
 // A bare box of 16 x 2.2 x 2.6 m; the origin is 1 m from its end.
@@ -74,4 +74,4 @@ TEST(SphereScan, EndsAtItsRangeAndDependsOnItsSeedAlone) {
 }
 
 }  // namespace
-}  // namespace voxlist
+}  // namespace voxlist::simulation

@@ -1,4 +1,4 @@
-#include "voxels/halved.h"
+#include "voxlist/voxels/halved.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "voxels/occupancy_map.h"
+#include "voxlist/voxels/occupancy_map.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <random>
 #include <set>
 
-#include "voxels/voxel_ray.h"
+#include "voxlist/voxels/voxel_ray.h"
 
 namespace voxlist {
 namespace {

@@ -1,4 +1,4 @@
-#include "voxels/scan_cells.h"
+#include "voxlist/voxels/scan_cells.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "voxels/voxel_ray.h"
+#include "voxlist/voxels/voxel_ray.h"
 
 #include <gtest/gtest.h>
 

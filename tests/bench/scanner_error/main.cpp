@@ -5,11 +5,11 @@
 #include <numeric>
 #include <string>
 
-#include "bench/scanner_error/measures.h"
-#include "bench/scanner_error/recording.h"
-#include "io/plot.h"
+#include "tests/bench/scanner_error/measures.h"
+#include "tests/bench/scanner_error/recording.h"
+#include "voxlist/drawing/plot.h"
 
-namespace voxlist {
+namespace voxlist::bench {
 namespace {
 
 // Distances to the closest points of the next scan.
@@ -25,7 +25,8 @@ struct Figures {
 };
 
 // Of two scans by the same side of the mirror.
-Closest measure_closest(const Recording& recording, const CloudAssemblerConfig& assembler) {
+Closest measure_closest(const Recording& recording,
+                        const scanner::CloudAssemblerConfig& assembler) {
   const std::vector<Cloud> clouds = recording.clouds(assembler);
   const auto distances = closest_distances(clouds[clouds.size() - 3], clouds.back());
   Closest closest;
@@ -39,7 +40,7 @@ Closest measure_closest(const Recording& recording, const CloudAssemblerConfig& 
 }
 
 Figures measure(const Recording& drifting, const Recording& repeating,
-                const CloudAssemblerConfig& assembler) {
+                const scanner::CloudAssemblerConfig& assembler) {
   const std::vector<Cloud> clouds = drifting.clouds(assembler);
   const auto points = drifting.noise_free_turn(assembler);
   return {random_error(clouds[clouds.size() - 2], clouds.back()), error_on_six_metres(points),
@@ -48,8 +49,8 @@ Figures measure(const Recording& drifting, const Recording& repeating,
 }
 
 // Misaligned as a scanner that was built with care but never calibrated.
-MirrorScannerConfig uncalibrated() {
-  MirrorScannerConfig config;
+simulation::MirrorScannerConfig uncalibrated() {
+  simulation::MirrorScannerConfig config;
   config.mirror.phase_deg = {0.25, -0.25};
   config.mirror.height_m += 0.005;
   config.mirror.offset_m = {0.004, 0.001};
@@ -60,25 +61,27 @@ MirrorScannerConfig uncalibrated() {
 }
 
 // The paper's "flexing between the stepper motor axle and the mirror".
-MirrorScannerConfig flexing() {
-  MirrorScannerConfig config;
+simulation::MirrorScannerConfig flexing() {
+  simulation::MirrorScannerConfig config;
   config.mirror.flex_deg = 0.33;
   return config;
 }
 
-CloudAssemblerConfig as_drawn() {
-  CloudAssemblerConfig assembler;
+scanner::CloudAssemblerConfig as_drawn() {
+  scanner::CloudAssemblerConfig assembler;
   assembler.use_odometry = false;
   return assembler;
 }
 
-CloudAssemblerConfig calibrated(const Recording& recording) {
-  CloudAssemblerConfig assembler = as_drawn();
-  const Calibration calibration = calibrate(recording.log(), assembler, {});
+scanner::CloudAssemblerConfig calibrated(const Recording& recording) {
+  scanner::CloudAssemblerConfig assembler = as_drawn();
+  const calibration::Calibration calibration =
+      calibration::calibrate(recording.log(), assembler, {});
   for (const std::string& refusal : calibration.refusals)
     std::printf("calibration refused: %s\n", refusal.c_str());
   if (calibration.answer && calibration.refusals.empty())
-    assembler.geometry = with_parameters(assembler.geometry, calibration.answer->parameters);
+    assembler.geometry =
+        calibration::with_parameters(assembler.geometry, calibration.answer->parameters);
   return assembler;
 }
 
@@ -105,34 +108,36 @@ void print(const std::vector<Figures>& columns) {
   row("    mean", "11", [](auto& f) { return f.drifting.mean_m; });
 }
 
-PlotSeries curve(const std::string& name, const Rgb& colour, const Closest& closest) {
-  PlotSeries series{name, colour, {}};
+drawing::PlotSeries curve(const std::string& name, const io::Rgb& colour, const Closest& closest) {
+  drawing::PlotSeries series{name, colour, {}};
   for (std::size_t i = 0; i < closest.shares.size(); ++i)
     series.points.emplace_back(static_cast<double>(i) + 0.5, closest.shares[i] * 1e2);
   return series;
 }
 
-PlotSeries mark(const std::string& name, const Rgb& colour, double at_mm, double height) {
+drawing::PlotSeries mark(const std::string& name, const io::Rgb& colour, double at_mm,
+                         double height) {
   return {name, colour, {{at_mm, 0.0}, {at_mm, height}}};
 }
 
 void plot(const std::string& file, const Figures& calibrated) {
   const double top = *std::ranges::max_element(calibrated.repeating.shares) * 1e2;
-  write_png(file, draw_plot({"distance to the closest point of the next scan", "mm", "%"},
-                            {curve("same spots", {30, 90, 200}, calibrated.repeating),
-                             curve("drifting", {200, 60, 40}, calibrated.drifting),
-                             mark("paper: mode", {60, 60, 60}, 4.0, top),
-                             mark("median", {130, 130, 130}, 6.0, top),
-                             mark("mean", {190, 190, 190}, 11.0, top)}));
+  drawing::write_png(
+      file, drawing::draw_plot({"distance to the closest point of the next scan", "mm", "%"},
+                               {curve("same spots", {30, 90, 200}, calibrated.repeating),
+                                curve("drifting", {200, 60, 40}, calibrated.drifting),
+                                mark("paper: mode", {60, 60, 60}, 4.0, top),
+                                mark("median", {130, 130, 130}, 6.0, top),
+                                mark("mean", {190, 190, 190}, 11.0, top)}));
 }
 
 }  // namespace
-}  // namespace voxlist
+}  // namespace voxlist::bench
 
 int main(int argc, char** argv) {
-  using namespace voxlist;
+  using namespace voxlist::bench;
   std::vector<Figures> columns;
-  for (MirrorScannerConfig config : {uncalibrated(), flexing()}) {
+  for (voxlist::simulation::MirrorScannerConfig config : {uncalibrated(), flexing()}) {
     const Recording drifting(config);
     config.turns_per_second = 75.0;
     const Recording repeating(config);

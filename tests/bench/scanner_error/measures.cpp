@@ -1,13 +1,13 @@
-#include "bench/scanner_error/measures.h"
+#include "tests/bench/scanner_error/measures.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "simulation/random.h"
+#include "voxlist/simulation/random.h"
 
-namespace voxlist {
+namespace voxlist::bench {
 namespace {
 
 using Eigen::Vector3d;
@@ -53,7 +53,7 @@ RandomError random_error(const Cloud& first, const Cloud& second) {
 
 double error_on_six_metres(const std::vector<Recording::SeenPoint>& points) {
   constexpr int kPairs = 5000, kTries = 1'000'000;
-  Random random(6);
+  simulation::Random random(6);
   const auto any = [&]() -> const Recording::SeenPoint& {
     return points[random.bits() % points.size()];
   };
@@ -98,4 +98,4 @@ std::array<double, 40> by_millimetre(const std::vector<double>& distances_m) {
   return shares;
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::bench

@@ -3,9 +3,9 @@
 #include <array>
 #include <vector>
 
-#include "bench/scanner_error/recording.h"
+#include "tests/bench/scanner_error/recording.h"
 
-namespace voxlist {
+namespace voxlist::bench {
 
 /// RMS distance of two clouds' points from the best plane through both, for the ceiling (z), the
 /// two walls across x, and the two across y. Metres.
@@ -26,4 +26,4 @@ std::vector<double> closest_distances(const Cloud& first, const Cloud& second);
 /// Share of the distances in each millimetre, from 0 on; the rest is left out.
 std::array<double, 40> by_millimetre(const std::vector<double>& distances_m);
 
-}  // namespace voxlist
+}  // namespace voxlist::bench

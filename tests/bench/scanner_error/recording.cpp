@@ -1,14 +1,14 @@
-#include "bench/scanner_error/recording.h"
+#include "tests/bench/scanner_error/recording.h"
 
 #include <cmath>
 
-#include "calibration/parameters.h"
-#include "scanner/beam_geometry.h"
-#include "scanner/cloud_assembler.h"
-#include "scanner/mirror_clock.h"
-#include "scanner/mirror_motion.h"
+#include "voxlist/calibration/parameters.h"
+#include "voxlist/scanner/mirror/mirror_clock.h"
+#include "voxlist/scanner/sweep/beam_geometry.h"
+#include "voxlist/scanner/sweep/cloud_assembler.h"
+#include "voxlist/scanner/sweep/mirror_motion.h"
 
-namespace voxlist {
+namespace voxlist::bench {
 namespace {
 
 using Eigen::Vector3d;
@@ -18,10 +18,10 @@ constexpr double kClouds_s = 8.0;
 constexpr std::size_t kTurnLines = 150;
 constexpr std::uint64_t kSeed = 8;
 
-Building room_of_figure_8() {
+simulation::Building room_of_figure_8() {
   const Vector3d half = kRoomHalf_m, middle(0.0, 0.0, half.z());
   constexpr double kWall_m = 0.1;
-  std::vector<Box> walls;
+  std::vector<simulation::Box> walls;
   for (Eigen::Index axis = 0; axis < 3; ++axis)
     for (const double side : {-1.0, 1.0}) {
       Vector3d centre = middle, size = half.array() + kWall_m;
@@ -29,25 +29,26 @@ Building room_of_figure_8() {
       size[axis] = kWall_m / 2.0;
       walls.push_back({centre, size, 0.0});
     }
-  return {BoxTree(std::move(walls)), {}, {}};
+  return {simulation::BoxTree(std::move(walls)), {}, {}};
 }
 
-MirrorClock clock_of(const MirrorScannerConfig& config) {
-  MirrorClockConfig clock;
-  for (const ArmRod& arm : config.mirror.arms)
-    clock.arms.push_back({arm.angle_deg * kRadPerDeg, arm.beam_first_deg * kRadPerDeg,
-                          arm.beam_last_deg * kRadPerDeg});
-  return MirrorClock(clock);
+scanner::MirrorClock clock_of(const simulation::MirrorScannerConfig& config) {
+  scanner::MirrorClockConfig clock;
+  for (const simulation::ArmRod& arm : config.mirror.arms)
+    clock.arms.push_back({arm.angle_deg * calibration::kRadPerDeg,
+                          arm.beam_first_deg * calibration::kRadPerDeg,
+                          arm.beam_last_deg * calibration::kRadPerDeg});
+  return scanner::MirrorClock(clock);
 }
 
 }  // namespace
 
-Recording::Recording(const MirrorScannerConfig& config)
+Recording::Recording(const simulation::MirrorScannerConfig& config)
     : config_(config),
       world_(room_of_figure_8()),
       stands_(1.0, {kStand}),
       scanner_(world_, stands_, config_, kSeed) {
-  MirrorClock clock = clock_of(config_);
+  scanner::MirrorClock clock = clock_of(config_);
   std::int64_t edge = 0;
   const auto lines = static_cast<std::int64_t>(kDuration_s * config_.turns_per_second);
   for (std::int64_t i = 0; i < lines; ++i) {
@@ -59,10 +60,10 @@ Recording::Recording(const MirrorScannerConfig& config)
   }
 }
 
-std::vector<Cloud> Recording::clouds(const CloudAssemblerConfig& config) const {
-  CloudAssembler assembler(config);
+std::vector<Cloud> Recording::clouds(const scanner::CloudAssemblerConfig& config) const {
+  scanner::CloudAssembler assembler(config);
   std::vector<Cloud> clouds;
-  const auto take = [&](Assembly assembly) {
+  const auto take = [&](scanner::Assembly assembly) {
     for (Cloud& cloud : assembly.clouds) clouds.push_back(std::move(cloud));
   };
   for (std::size_t i = 0; i < log_.lines.size(); ++i) {
@@ -74,9 +75,10 @@ std::vector<Cloud> Recording::clouds(const CloudAssemblerConfig& config) const {
 }
 
 std::vector<Recording::SeenPoint> Recording::noise_free_turn(
-    const CloudAssemblerConfig& config) const {
-  const BeamGeometry geometry(config);
-  MirrorMotion motion(config.staircase, std::llround(config.mirror_extrapolation_ms * 1e3));
+    const scanner::CloudAssemblerConfig& config) const {
+  const scanner::BeamGeometry geometry(config);
+  scanner::MirrorMotion motion(config.staircase,
+                               std::llround(config.mirror_extrapolation_ms * 1e3));
   std::vector<SeenPoint> points;
   for (std::size_t i = log_.lines.size() - kTurnLines; i < log_.lines.size(); ++i) {
     motion.add(log_.mirror[i]);
@@ -84,17 +86,19 @@ std::vector<Recording::SeenPoint> Recording::noise_free_turn(
     for (std::size_t beam = 0; beam < line.ranges_m.size(); ++beam) {
       const double delay_us = beam_delay_us(line, beam);
       const double t_s = (static_cast<double>(line.utime_us) + delay_us) * 1e-6;
-      const SimulatedBeam is = scanner_.trace(t_s - config_.latency_s, line.angle_rad(beam));
-      const MirrorAt mirror =
+      const simulation::SimulatedBeam is =
+          scanner_.trace(t_s - config_.latency_s, line.angle_rad(beam));
+      const scanner::MirrorAt mirror =
           motion.at(line.utime_us + std::llround(delay_us - config.geometry.latency_ms * 1e3));
-      BeamHit hit;
-      if (is.met == SimulatedBeam::Met::kWorld && mirror.known == MirrorAt::Known::kYes &&
+      scanner::BeamHit hit;
+      if (is.met == simulation::SimulatedBeam::Met::kWorld &&
+          mirror.known == scanner::MirrorAt::Known::kYes &&
           geometry.follow(mirror.psi_rad, line.angle_rad(beam), static_cast<float>(is.range_m),
-                          hit) == BeamFate::kPoint)
+                          hit) == scanner::BeamFate::kPoint)
         points.push_back({is.point_base(is.range_m), hit.point});
     }
   }
   return points;
 }
 
-}  // namespace voxlist
+}  // namespace voxlist::bench

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "voxlist/drawing/picture.h"
+#include "voxlist/geometry/cloud.h"
+#include "voxlist/io/poses/pose_file.h"
+
+namespace voxlist::evaluation {
+
+/// Size of a set of errors, all in their own unit. Of none: count 0 and the rest 0.
+struct ErrorStatistics {
+  std::size_t count = 0;
+  double rmse = 0.0;
+  double mean = 0.0;
+  double median = 0.0;
+  double max = 0.0;
+};
+
+/// Statistics of non-negative errors.
+ErrorStatistics statistics(std::vector<double> errors);
+
+/// How poses of an estimate were found for those of the truth.
+enum class Association { kByTime, kByScanNumber };
+
+/// An estimated pose with the true one, the estimate in the truth's frame after the first pose was
+/// anchored.
+struct MatchedPose {
+  std::int64_t utime_us = 0;  ///< the truth's
+  Pose2 truth;
+  Pose2 anchored;
+};
+
+/// How far an estimated trajectory is from the truth, in the plane unless said otherwise.
+struct TrajectoryErrors {
+  Association association = Association::kByTime;
+  std::size_t matched = 0;
+  std::size_t in_truth = 0;
+
+  /// After the first matched pose was laid onto its truth: what a map that starts there is off.
+  ErrorStatistics anchored_m;
+  ErrorStatistics anchored_heading_rad;
+  double end_position_m = 0.0;  ///< of the last matched pose
+
+  /// The same with heights (the first one anchored too); only where the truth has them.
+  std::optional<ErrorStatistics> anchored_3d_m;
+
+  /// After the rigid planar motion that makes the positions' RMSE smallest.
+  ErrorStatistics aligned_m;
+  ErrorStatistics aligned_heading_rad;
+  Pose2 T_truth_estimate;  ///< that motion
+
+  /// Of the motion between poses that follow each other in the truth, both matched.
+  ErrorStatistics step_m;
+  ErrorStatistics step_rad;
+
+  /// Of the motion over each stretch of at least 1 m along the truth, divided by its length.
+  ErrorStatistics per_metre_m;
+  ErrorStatistics per_metre_rad;
+
+  std::vector<MatchedPose> poses;
+};
+
+/// Compares an estimate with the truth.
+///
+/// A true pose is matched with the nearest estimate in time if they are less than half the median
+/// interval of the truth apart. Where no times agree, scan numbers are matched instead: the scan
+/// number of an estimate is its time in seconds if all its times are whole seconds before 1971
+/// (scans without times run 1 Hz from 0), else its position. Nothing matches, or one of both is
+/// empty: no answer.
+std::optional<TrajectoryErrors> evaluate(const std::vector<StampedPose3>& estimate,
+                                         const io::PoseTable& truth);
+
+/// The rigid planar motion that takes `from` closest to `to` (least squares over corresponding
+/// points, at least one; Umeyama's closed form without scale).
+Pose2 align(const std::vector<Eigen::Vector2d>& from, const std::vector<Eigen::Vector2d>& to);
+
+/// Both trajectories from above, and below them the position error over time.
+drawing::Picture draw_errors(const TrajectoryErrors& errors);
+
+}  // namespace voxlist::evaluation

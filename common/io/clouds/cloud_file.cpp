@@ -1,0 +1,37 @@
+#include "voxlist/io/clouds/cloud_file.h"
+
+#include <algorithm>
+#include <cctype>
+#include <string>
+
+#include "voxlist/io/clouds/pcd.h"
+#include "voxlist/io/clouds/ply.h"
+#include "voxlist/io/files/cursor.h"
+
+namespace voxlist::io {
+namespace {
+
+std::string lower_extension(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  for (char& c : extension) {
+    c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  return extension;
+}
+
+}  // namespace
+
+Cloud read_cloud_file(const std::filesystem::path& path) {
+  const std::string extension = lower_extension(path);
+  if (extension != ".ply" && extension != ".pcd") {
+    throw FileError(path, "neither .ply nor .pcd, convert the scan to one of these");
+  }
+  const std::string bytes = read_file(path);
+  try {
+    return extension == ".ply" ? parse_ply(bytes) : parse_pcd(bytes);
+  } catch (const FormatError& error) {
+    throw FileError(path, std::string(error.what()) + "; copy or export the scan again");
+  }
+}
+
+}  // namespace voxlist::io

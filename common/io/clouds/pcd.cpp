@@ -1,0 +1,208 @@
+#include "voxlist/io/clouds/pcd.h"
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "voxlist/io/clouds/lzf.h"
+#include "voxlist/io/clouds/point_rows.h"
+#include "voxlist/io/files/cursor.h"
+
+namespace voxlist::io {
+namespace {
+
+struct Field {
+  std::string name;
+  Scalar type;
+  std::uint64_t count;
+
+  bool is_padding() const { return name == "_"; }
+};
+
+struct Header {
+  std::vector<Field> fields;
+  std::uint64_t points;
+  std::string encoding;
+};
+
+using Words = std::vector<std::string>;
+using Entries = std::map<std::string, Words, std::less<>>;
+
+// PCL's own limit on COUNT is 32 bits; histograms of a few hundred are what is seen.
+constexpr std::uint64_t kMaxCount = 1u << 20;
+
+Entries take_entries(std::string_view& bytes) {
+  Entries entries;
+  while (!entries.contains("DATA")) {
+    std::string_view line = take_line(bytes);
+    const std::string key(take_word(line));
+    if (key.empty() || key.starts_with('#')) {
+      continue;
+    }
+    Words words;
+    for (auto word = take_word(line); !word.empty(); word = take_word(line)) {
+      words.emplace_back(word);
+    }
+    if (!entries.emplace(key, words).second) {
+      throw FormatError("has a header line twice");
+    }
+  }
+  return entries;
+}
+
+const Words& words_of(const Entries& entries, std::string_view key, std::size_t expected) {
+  const auto found = entries.find(key);
+  if (found == entries.end() || found->second.size() != expected) {
+    throw FormatError("its header line " + std::string(key) + " is missing or of the wrong length");
+  }
+  return found->second;
+}
+
+std::vector<Field> parse_fields(const Entries& entries) {
+  const auto names = entries.find("FIELDS");
+  const std::size_t n = names == entries.end() ? 0 : names->second.size();
+  const Words& sizes = words_of(entries, "SIZE", n);
+  const Words& types = words_of(entries, "TYPE", n);
+  const Words counts = entries.contains("COUNT") ? words_of(entries, "COUNT", n) : Words(n, "1");
+  std::vector<Field> fields;
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto type = pcd_scalar(types[i], parse_count(sizes[i]));
+    const std::uint64_t count = parse_count(counts[i]);
+    if (!type || count > kMaxCount) {
+      throw FormatError("has a field of an unknown type or an impossible count");
+    }
+    fields.push_back({names->second[i], *type, count});
+  }
+  return fields;
+}
+
+std::uint64_t parse_points(const Entries& entries) {
+  const bool has_points = entries.contains("POINTS");
+  if (!has_points || entries.contains("WIDTH") || entries.contains("HEIGHT")) {
+    std::uint64_t area = 0;
+    if (__builtin_mul_overflow(parse_count(words_of(entries, "WIDTH", 1)[0]),
+                               parse_count(words_of(entries, "HEIGHT", 1)[0]), &area) ||
+        (has_points && parse_count(words_of(entries, "POINTS", 1)[0]) != area)) {
+      throw FormatError("its WIDTH times HEIGHT is not its POINTS");
+    }
+    return area;
+  }
+  return parse_count(words_of(entries, "POINTS", 1)[0]);
+}
+
+Header take_header(std::string_view& bytes) {
+  const Entries entries = take_entries(bytes);
+  return {parse_fields(entries), parse_points(entries), words_of(entries, "DATA", 1)[0]};
+}
+
+std::uint64_t bytes_per_point(const std::vector<Field>& fields) {
+  std::uint64_t bytes = 0;
+  for (const Field& field : fields) {
+    bytes += field.count * size_of(field.type);
+  }
+  return bytes;
+}
+
+std::uint64_t numbers_per_point(const std::vector<Field>& fields) {
+  std::uint64_t numbers = 0;
+  for (const Field& field : fields) {
+    numbers += field.count;
+  }
+  return numbers;
+}
+
+PointRows point_rows(const std::vector<Field>& fields) {
+  std::vector<std::string> names;
+  for (const Field& field : fields) {
+    names.push_back(field.name);
+  }
+  PointRows rows(names);
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    if (rows.wants(i) && fields[i].count != 1) {
+      throw FormatError("its field " + names[i] + " does not have COUNT 1");
+    }
+  }
+  return rows;
+}
+
+template <typename Cursor>
+Cloud read_rows(const Header& header, Cursor cursor) {
+  PointRows rows = point_rows(header.fields);
+  if (!cursor.can_hold(header.points, bytes_per_point(header.fields),
+                       numbers_per_point(header.fields))) {
+    throw FormatError("announces more points than it has");
+  }
+  rows.reserve(header.points);
+  for (std::uint64_t point = 0; point < header.points; ++point) {
+    for (std::size_t i = 0; i < header.fields.size(); ++i) {
+      if (rows.wants(i)) {
+        rows.set(i, cursor.next(header.fields[i].type));
+      } else {
+        cursor.skip(header.fields[i].type, header.fields[i].count);
+      }
+    }
+    rows.finish_row();
+  }
+  return rows.take();
+}
+
+bool is_size_of(std::uint64_t size, const Header& header) {
+  std::uint64_t expected = 0;
+  return !__builtin_mul_overflow(header.points, bytes_per_point(header.fields), &expected) &&
+         size == expected;
+}
+
+// Compressed data is one column after the other: all x, then all y, ...
+Cloud read_columns(const Header& header, std::string_view data) {
+  PointRows rows = point_rows(header.fields);
+  std::vector<BinaryCursor> columns;
+  for (const Field& field : header.fields) {
+    const std::uint64_t bytes = header.points * field.count * size_of(field.type);
+    columns.emplace_back(data.substr(0, bytes), std::endian::little);
+    data.remove_prefix(bytes);
+  }
+  rows.reserve(header.points);
+  for (std::uint64_t point = 0; point < header.points; ++point) {
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      if (rows.wants(i)) {
+        rows.set(i, columns[i].next(header.fields[i].type));
+      }
+    }
+    rows.finish_row();
+  }
+  return rows.take();
+}
+
+Cloud read_compressed(Header header, std::string_view bytes) {
+  BinaryCursor sizes(bytes, std::endian::little);
+  const auto packed_size = static_cast<std::size_t>(sizes.next(Scalar::kUint32));
+  const auto size = static_cast<std::size_t>(sizes.next(Scalar::kUint32));
+  bytes.remove_prefix(8);
+  // PCL announces padding but leaves it out of compressed data; others keep it. The size tells.
+  if (!is_size_of(size, header)) {
+    std::erase_if(header.fields, [](const Field& field) { return field.is_padding(); });
+  }
+  if (packed_size > bytes.size() || !is_size_of(size, header)) {
+    throw FormatError("announces more or fewer points than it has");
+  }
+  return read_columns(header, unpack_lzf(bytes.substr(0, packed_size), size));
+}
+
+}  // namespace
+
+Cloud parse_pcd(std::string_view bytes) {
+  const Header header = take_header(bytes);
+  if (header.encoding == "ascii") {
+    return read_rows(header, TextCursor(bytes));
+  }
+  if (header.encoding == "binary") {
+    return read_rows(header, BinaryCursor(bytes, std::endian::little));
+  }
+  if (header.encoding == "binary_compressed") {
+    return read_compressed(header, bytes);
+  }
+  throw FormatError("its DATA is none of ascii, binary and binary_compressed");
+}
+
+}  // namespace voxlist::io

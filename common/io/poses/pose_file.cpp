@@ -1,0 +1,210 @@
+#include "voxlist/io/poses/pose_file.h"
+
+#include <cctype>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "voxlist/io/poses/csv_table.h"
+
+namespace voxlist::io {
+namespace {
+
+constexpr double kRadPerDeg = std::numbers::pi / 180.0;
+// 9e15 us is the year 2255: what is beyond is a wrong unit. Doubles hold all integers up to there.
+constexpr double kMaxTimeUs = 9e15;
+
+/// A column of numbers in a fixed unit.
+struct Quantity {
+  std::size_t column;
+  double scale = 1.0;
+};
+
+std::optional<Quantity> quantity(const CsvTable& csv, std::initializer_list<std::string_view> names,
+                                 double scale = 1.0) {
+  const auto column = csv.column(names);
+  return column ? std::optional(Quantity{*column, scale}) : std::nullopt;
+}
+
+std::optional<Quantity> angle(const CsvTable& csv, std::string_view name) {
+  const std::string base(name);
+  const auto radians = quantity(csv, {base, base + "_rad"});
+  return radians ? radians : quantity(csv, {base + "_deg"}, kRadPerDeg);
+}
+
+std::optional<Quantity> length(const CsvTable& csv, std::string_view name) {
+  return quantity(csv, {name, std::string(name) + "_m"});
+}
+
+std::optional<Quantity> time(const CsvTable& csv) {
+  const auto us = quantity(csv, {"utime", "utime_us", "timestamp_us", "time_us", "t_us"});
+  return us ? us : quantity(csv, {"t", "t_s", "time", "time_s", "timestamp", "timestamp_s"}, 1e6);
+}
+
+/// Which columns of the table hold what.
+struct Columns {
+  explicit Columns(const CsvTable& csv)
+      : scan(csv.column({"index", "scan", "scan_index", "scan_number"})),
+        file(csv.column({"file", "filename", "file_name", "scan_file"})),
+        utime(time(csv)),
+        x(length(csv, "x")),
+        y(length(csv, "y")),
+        z(length(csv, "z")),
+        roll(angle(csv, "roll")),
+        pitch(angle(csv, "pitch")),
+        yaw(angle(csv, "yaw")),
+        qw(quantity(csv, {"qw"})),
+        qx(quantity(csv, {"qx"})),
+        qy(quantity(csv, {"qy"})),
+        qz(quantity(csv, {"qz"})) {
+    if (!file && scan && scan == csv.column({"scan"}) && holds_names(csv, *scan)) {
+      std::swap(file, scan);
+    }
+  }
+
+  bool has_quaternion() const { return qw && qx && qy && qz; }
+  bool complete() const { return x && y && (yaw || has_quaternion()); }
+
+  std::optional<std::size_t> scan, file;
+  std::optional<Quantity> utime, x, y, z, roll, pitch, yaw, qw, qx, qy, qz;
+
+ private:
+  static bool holds_names(const CsvTable& csv, std::size_t column) {
+    return csv.rows() > 0 &&
+           csv.text(0, column).find_first_not_of("+-.0123456789") != std::string::npos;
+  }
+};
+
+/// One row of the table, read through the columns.
+class RowReader {
+ public:
+  RowReader(const CsvTable& csv, const Columns& columns, std::size_t row)
+      : csv_(csv), columns_(columns), row_(row) {}
+
+  PoseRow read() const {
+    PoseRow result;
+    result.file = columns_.file ? csv_.text(row_, *columns_.file) : "";
+    result.scan = scan(result.file);
+    result.utime_us = columns_.utime ? utime_us() : result.scan * 1'000'000;
+    result.pose.linear() = rotation().toRotationMatrix();
+    result.pose.translation() << value(columns_.x), value(columns_.y), value(columns_.z);
+    return result;
+  }
+
+ private:
+  double value(const std::optional<Quantity>& quantity) const {
+    return quantity ? csv_.number(row_, quantity->column) * quantity->scale : 0.0;
+  }
+
+  std::int64_t scan(const std::string& file) const {
+    if (!columns_.scan) {
+      return number_in_name(file).value_or(static_cast<std::int64_t>(row_));
+    }
+    const double number = csv_.number(row_, *columns_.scan);
+    if (!(number >= 0.0 && number <= 1e9) || number != std::floor(number)) {
+      throw csv_.error(row_, *columns_.scan, "must be a whole number from 0");
+    }
+    return static_cast<std::int64_t>(number);
+  }
+
+  std::int64_t utime_us() const {
+    const double us = value(columns_.utime);
+    if (std::abs(us) > kMaxTimeUs) {
+      throw csv_.error(row_, columns_.utime->column,
+                       "is no time in this unit (utime is in microseconds, t in seconds)");
+    }
+    return std::llround(us);
+  }
+
+  Eigen::Quaterniond rotation() const {
+    if (columns_.has_quaternion()) {
+      const auto q = unit_quaternion(value(columns_.qw), value(columns_.qx), value(columns_.qy),
+                                     value(columns_.qz));
+      if (!q) {
+        throw csv_.error(row_, "columns qx, qy, qz, qw: the quaternion is not of unit length");
+      }
+      return *q;
+    }
+    using Eigen::AngleAxisd;
+    using Eigen::Vector3d;
+    return AngleAxisd(value(columns_.yaw), Vector3d::UnitZ()) *
+           AngleAxisd(value(columns_.pitch), Vector3d::UnitY()) *
+           AngleAxisd(value(columns_.roll), Vector3d::UnitX());
+  }
+
+  const CsvTable& csv_;
+  const Columns& columns_;
+  std::size_t row_;
+};
+
+}  // namespace
+
+PoseTable read_pose_csv(const std::filesystem::path& path) {
+  const CsvTable csv(path);
+  const Columns columns(csv);
+  if (!columns.complete()) {
+    throw FileError(path, "needs columns x, y and yaw (or qx, qy, qz, qw), but has " +
+                              csv.column_names() + "; name them in the first line");
+  }
+  PoseTable table{{},
+                  columns.scan.has_value(),
+                  columns.file.has_value(),
+                  columns.utime.has_value(),
+                  columns.z.has_value()};
+  std::set<std::int64_t> scans;
+  std::set<std::string> files;
+  for (std::size_t row = 0; row < csv.rows(); ++row) {
+    table.rows.push_back(RowReader(csv, columns, row).read());
+    const PoseRow& last = table.rows.back();
+    if (columns.scan && !scans.insert(last.scan).second) {
+      throw csv.error(row, *columns.scan, "scan " + std::to_string(last.scan) + " comes twice");
+    }
+    if (columns.file && (last.file.empty() || !files.insert(last.file).second)) {
+      throw csv.error(row, *columns.file, "file \"" + last.file + "\" is empty or comes twice");
+    }
+  }
+  if (table.rows.empty()) {
+    throw FileError(path, "has no poses, add a line for each");
+  }
+  return table;
+}
+
+PoseTable read_odometry_csv(const std::filesystem::path& path) {
+  PoseTable table = read_pose_csv(path);
+  if (!table.has_times) {
+    throw FileError(path, "odometry needs times, add a column utime (us) or t (s)");
+  }
+  for (std::size_t i = 1; i < table.rows.size(); ++i) {
+    if (table.rows[i].utime_us < table.rows[i - 1].utime_us) {
+      throw FileError(path, "time goes backwards at pose " + std::to_string(i + 1) +
+                                ", sort the lines by time");
+    }
+  }
+  return table;
+}
+
+std::optional<Eigen::Quaterniond> unit_quaternion(double w, double x, double y, double z) {
+  constexpr double kTolerance = 0.01;
+  const Eigen::Quaterniond q(w, x, y, z);
+  if (!(std::abs(q.norm() - 1.0) <= kTolerance)) {
+    return std::nullopt;
+  }
+  return q.normalized();
+}
+
+std::optional<std::int64_t> number_in_name(const std::filesystem::path& file) {
+  constexpr std::size_t kMaxDigits = 9;
+  const std::string stem = file.stem().string();
+  const std::size_t last = stem.find_last_of("0123456789");
+  if (last == std::string::npos) {
+    return std::nullopt;
+  }
+  const std::size_t before = stem.find_last_not_of("0123456789", last);
+  const std::size_t first = before == std::string::npos ? 0 : before + 1;
+  if (last - first >= kMaxDigits) {
+    return std::nullopt;
+  }
+  return std::stoll(stem.substr(first, last + 1 - first));
+}
+
+}  // namespace voxlist::io

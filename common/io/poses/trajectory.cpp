@@ -1,0 +1,81 @@
+#include "voxlist/io/poses/trajectory.h"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+#include "voxlist/io/files/atomic_file.h"
+#include "voxlist/io/files/cursor.h"
+#include "voxlist/io/files/file.h"
+#include "voxlist/io/poses/pose_file.h"
+
+namespace voxlist::io {
+namespace {
+
+constexpr double kMaxTimeS = 9e9;
+
+StampedPose3 parse_line(std::string_view line) {
+  std::array<double, 8> v{};
+  for (double& value : v) {
+    value = parse_number(take_word(line));
+    if (!std::isfinite(value)) {
+      throw FormatError("a number is not finite");
+    }
+  }
+  const auto rotation = unit_quaternion(v[7], v[4], v[5], v[6]);
+  if (!take_word(line).empty() || std::abs(v[0]) > kMaxTimeS) {
+    throw FormatError("is not \"t x y z qx qy qz qw\" with t in seconds");
+  }
+  if (!rotation) {
+    throw FormatError("the quaternion is not of unit length");
+  }
+  StampedPose3 stamped{std::llround(v[0] * 1e6), Pose3::Identity()};
+  stamped.pose.linear() = rotation->toRotationMatrix();
+  stamped.pose.translation() << v[1], v[2], v[3];
+  return stamped;
+}
+
+std::string format_line(const StampedPose3& stamped) {
+  const auto& p = stamped.pose.translation();
+  const Eigen::Quaterniond q(stamped.pose.linear());
+  const std::lldiv_t time = std::lldiv(std::abs(stamped.utime_us), 1'000'000);
+  std::array<char, 4096> line;  // the longest doubles have 319 digits each
+  std::snprintf(line.data(), line.size(), "%s%lld.%06lld %.9f %.9f %.9f %.9f %.9f %.9f %.9f\n",
+                stamped.utime_us < 0 ? "-" : "", time.quot, time.rem, p.x(), p.y(), p.z(), q.x(),
+                q.y(), q.z(), q.w());
+  return line.data();
+}
+
+}  // namespace
+
+std::vector<StampedPose3> read_tum(const std::filesystem::path& path) {
+  const std::string bytes = read_file(path) + "\n";
+  std::string_view rest = bytes;
+  std::vector<StampedPose3> trajectory;
+  for (std::size_t line_number = 1; !rest.empty(); ++line_number) {
+    const std::string_view line = take_line(rest);
+    std::string_view words = line;
+    const std::string_view first = take_word(words);
+    if (first.empty() || first.starts_with('#')) {
+      continue;
+    }
+    try {
+      trajectory.push_back(parse_line(line));
+    } catch (const FormatError& error) {
+      throw FileError(path, "line " + std::to_string(line_number) + ": " + error.what());
+    }
+  }
+  return trajectory;
+}
+
+void write_tum(const std::filesystem::path& path, const std::vector<StampedPose3>& trajectory) {
+  std::string bytes = "# t_s x_m y_m z_m qx qy qz qw\n";
+  for (const StampedPose3& stamped : trajectory) {
+    bytes += format_line(stamped);
+  }
+  write_file_atomically(path, bytes);
+}
+
+}  // namespace voxlist::io

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "voxlist/geometry/cloud.h"
+
+namespace voxlist::io {
+
+/// Reads poses in TUM's format: lines "t x y z qx qy qz qw" (t in seconds, metres, # before
+/// comments), in the file's order. Throws FileError, with the line, on what is no such line, is not
+/// finite, or is no unit quaternion (1 % off is mended).
+std::vector<StampedPose3> read_tum(const std::filesystem::path& path);
+
+/// Writes poses in TUM's format, atomically: times to the microsecond, positions and quaternions to
+/// 9 decimals. Throws FileError.
+void write_tum(const std::filesystem::path& path, const std::vector<StampedPose3>& trajectory);
+
+}  // namespace voxlist::io

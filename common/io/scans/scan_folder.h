@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "voxlist/geometry/cloud.h"
+#include "voxlist/io/poses/pose_file.h"
+
+namespace voxlist::io {
+
+/// A folder of recorded scans: scan_*.ply and scan_*.pcd, or every *.ply and *.pcd when none is
+/// named so; beside them, where there, poses.csv (truth, and the source of the scans' times) and
+/// odometry.csv.
+///
+/// A scan's number is its position, from 0, in the natural order of the names (scan_9 before
+/// scan_10). Times come from poses.csv; scans that it leaves out lie evenly between those that it
+/// has, or 1 s apart at the ends. Without poses.csv, or without times in it, scans come once a
+/// second from utime 0.
+class ScanFolder {
+ public:
+  /// Looks at names and tables; scans are read one by one later. Throws FileError when there is no
+  /// such folder, there are no scans, a table is damaged or matches no scan, or times do not
+  /// increase with the names.
+  explicit ScanFolder(const std::filesystem::path& folder);
+
+  std::size_t size() const { return files_.size(); }
+  const std::filesystem::path& file(std::size_t scan) const { return files_[scan]; }
+  std::int64_t utime_us(std::size_t scan) const { return utimes_us_[scan]; }
+
+  /// Reads a scan and sets its time. Throws FileError.
+  Cloud read(std::size_t scan) const;
+
+  /// Where poses.csv says that the scan was taken (T_map_base), if it does.
+  std::optional<Pose3> truth(std::size_t scan) const;
+
+  /// poses.csv and odometry.csv as they were read, where they are there.
+  const std::optional<PoseTable>& poses() const { return poses_; }
+  const std::optional<PoseTable>& odometry() const { return odometry_; }
+
+  /// For each scan its row in a table, if there is one. By file name where the table has names (the
+  /// extension may differ); else by scan number; a table whose numbers are not positions here, but
+  /// all occur in the file names (scan_100.ply ... and index 100 ...), is matched by these.
+  std::vector<std::optional<std::size_t>> match(const PoseTable& table) const;
+
+ private:
+  void read_poses(const std::filesystem::path& path);
+
+  std::vector<std::filesystem::path> files_;
+  std::vector<std::int64_t> utimes_us_;
+  std::optional<PoseTable> poses_;
+  std::optional<PoseTable> odometry_;
+  std::vector<std::optional<std::size_t>> rows_;
+};
+
+}  // namespace voxlist::io

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "voxlist/matching/counting/coarse_map.h"
+
+namespace voxlist::matching {
+
+/// Bit planes of a count.
+inline constexpr std::size_t kCountPlanes = 10;
+
+/// Counts of all nodes, in bit planes: node (x, y)'s count has its bit p at bit y * row_bits + x of
+/// plane p. Between the rows there are counts of no meaning.
+struct NodeCounts {
+  std::size_t words = 0;  ///< of a plane
+  std::vector<std::uint64_t> planes;
+};
+
+/// Which instructions are used; all give the same counts.
+enum class Instructions { kPortable, kAvx2, kAvx512 };
+
+/// The fastest that this processor has.
+Instructions best_instructions();
+
+/// Counts the cells that fall on marked ones, for every translation of the map by whole coarse
+/// cells. A cell is given as its bit at translation (0, 0), CoarseMap::bit(). Precondition: at most
+/// 2^kCountPlanes - 1 of them.
+NodeCounts coarse_sweep(const CoarseMap& map, std::vector<std::int64_t> bits,
+                        Instructions instructions);
+
+}  // namespace voxlist::matching

@@ -1,0 +1,13 @@
+// Compiled for this instruction set; called only where the processor has it.
+#include "voxlist/matching/counting/coarse_sweep_kernel.h"
+
+namespace voxlist::matching {
+
+void coarse_sweep_avx512(const SweepJob& job);
+
+void coarse_sweep_avx512(const SweepJob& job) {
+  using Word = std::uint64_t __attribute__((vector_size(64)));
+  sweep<Word>(job);
+}
+
+}  // namespace voxlist::matching

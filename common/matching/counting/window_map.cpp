@@ -1,0 +1,179 @@
+#include "voxlist/matching/counting/window_map.h"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+#include <new>
+
+namespace voxlist::matching {
+namespace {
+
+// A margin all round: blocks near the edge mark cells beyond it.
+constexpr std::int32_t kMargin = 16;
+// Edge of the patches whose occupied cells are counted.
+constexpr std::int32_t kPatch = 32;
+// Room for so many cells more on each side, so that it serves while the robot moves on.
+constexpr std::int32_t kMore = 8 * kPatch;
+// Layers below and above, for a map that grows.
+constexpr std::int32_t kSpareLayers = 2;
+
+CellRectangle whole_patches(const CellRectangle& r) {
+  const auto down = [](std::int32_t v) { return floor_div(v, kPatch) * kPatch; };
+  const auto up = [&](std::int32_t v) { return down(v + kPatch - 1); };
+  return {down(r.low_x), down(r.low_y), up(r.end_x), up(r.end_y)};
+}
+
+CellRectangle widened(const CellRectangle& r, std::int32_t by) {
+  return {r.low_x - by, r.low_y - by, r.end_x + by, r.end_y + by};
+}
+
+// Of the patch that holds a cell.
+std::uint64_t patch_key(std::int32_t x, std::int32_t y) {
+  const auto part = [](std::int32_t v) {
+    return std::uint64_t{static_cast<std::uint32_t>(floor_div(v, kPatch))};
+  };
+  return part(x) << 32 | part(y);
+}
+
+// What a block occupies, from the column before it to the one behind (a byte each) and from the row
+// before it to the one behind (bits 0 to 3 of each byte).
+std::uint32_t occupied_cells(const VoxelBlock& bits) {
+  std::uint64_t plan = 0;
+  for (const std::uint64_t word : bits) plan |= word;
+  constexpr std::uint64_t kQuarter = 0x0f0f0f0f;
+  std::uint32_t cells = 0;
+  if (plan & kQuarter) cells |= 0x00020702;
+  if (plan & kQuarter << 4) cells |= 0x02070200;
+  if (plan & kQuarter << 32) cells |= 0x00040e04;
+  if (plan & kQuarter << 36) cells |= 0x040e0400;
+  return cells;
+}
+
+}  // namespace
+
+void WindowMap::hold(const CellRectangle& needed) {
+  list_new_blocks();
+  // Blocks near by mark cells of a patch too.
+  const CellRectangle around = whole_patches(widened(needed, kPatch));
+  if (!columns_ || !ground_.holds(around)) make_room(widened(around, kMore));
+  for (std::int32_t y = around.low_y; y < around.end_y; y += kPatch) {
+    for (std::int32_t x = around.low_x; x < around.end_x; x += kPatch) {
+      const auto found = patches_.find(patch_key(x, y));
+      if (found == patches_.end() || found->second.ready) continue;
+      for (const std::uint32_t i : found->second.blocks)
+        mark(map_.block_position(i), map_.block(i));
+      found->second.ready = true;
+    }
+  }
+}
+
+void WindowMap::map_grew(const std::vector<Voxel>& blocks) {
+  list_new_blocks();
+  if (!columns_) return;
+  for (const Voxel& position : blocks) {
+    const auto patch = patches_.find(patch_key(2 * position.x, 2 * position.y));
+    if (patch == patches_.end() || !patch->second.ready) continue;
+    if (const VoxelBlock* block = map_.find_block(position)) mark(position, *block);
+  }
+}
+
+WindowMap::Count WindowMap::count(const CellRectangle& rectangle) const {
+  const CellRectangle r = whole_patches(rectangle);
+  std::int64_t occupied = 0;
+  std::int32_t lowest = 0, end = 0;
+  for (std::int32_t z = lowest_z_; z < lowest_z_ + size_z_; ++z) {
+    std::int64_t in_layer = 0;
+    for (std::int32_t y = r.low_y; y < r.end_y; y += kPatch)
+      for (std::int32_t x = r.low_x; x < r.end_x; x += kPatch)
+        in_layer += occupied_[counter_of(x, y, z)];
+    if (in_layer == 0) continue;
+    if (occupied == 0) lowest = z;
+    end = z + 1;
+    occupied += in_layer;
+  }
+  return {std::int64_t{end - lowest} * (r.end_x - r.low_x) * (r.end_y - r.low_y), occupied};
+}
+
+// A map numbers its blocks as they come.
+void WindowMap::list_new_blocks() {
+  std::uint64_t last_key = 0;
+  Patch* last = nullptr;
+  for (; listed_ < map_.block_count(); ++listed_) {
+    const Voxel& block = map_.block_position(listed_);
+    const std::int32_t x = 2 * block.x, y = 2 * block.y;
+    const std::uint64_t key = patch_key(x, y);
+    if (!last || key != last_key) last = &patches_[key];
+    last_key = key;
+    if (last->blocks.empty()) last->lowest_z = last->highest_z = block.z;
+    last->lowest_z = std::min(last->lowest_z, block.z);
+    last->highest_z = std::max(last->highest_z, block.z);
+    last->blocks.push_back(static_cast<std::uint32_t>(listed_));
+    const bool room_enough = block.z >= lowest_z_ && block.z < lowest_z_ + size_z_;
+    if (!room_enough && ground_.holds({x, y, x + 1, y + 1})) columns_.reset();
+  }
+}
+
+void WindowMap::make_room(const CellRectangle& ground) {
+  ground_ = ground;
+  low_x_ = ground.low_x - kMargin;
+  low_y_ = ground.low_y - kMargin;
+  size_x_ = ground.end_x + kMargin - low_x_;
+  size_y_ = ground.end_y + kMargin - low_y_;
+  std::int32_t highest = std::numeric_limits<std::int32_t>::min(),
+               lowest = std::numeric_limits<std::int32_t>::max();
+  for (auto& [key, patch] : patches_) {
+    patch.ready = false;
+    const Voxel& block = map_.block_position(patch.blocks.front());
+    if (!ground.holds({2 * block.x, 2 * block.y, 2 * block.x + 1, 2 * block.y + 1})) continue;
+    lowest = std::min(lowest, patch.lowest_z);
+    highest = std::max(highest, patch.highest_z);
+  }
+  const bool empty = highest < lowest;
+  lowest_z_ = empty ? 0 : lowest - kSpareLayers;
+  size_z_ = empty ? 0 : highest + kSpareLayers + 1 - lowest_z_;
+  // Pages that nobody touches cost nothing.
+  const auto bytes = static_cast<std::size_t>(size_x_) * static_cast<std::size_t>(size_y_) *
+                     static_cast<std::size_t>(size_z_);
+  columns_.reset(static_cast<std::uint8_t*>(std::calloc(bytes + 1, 1)));
+  if (!columns_) throw std::bad_alloc();
+  occupied_.assign(counter_of(ground.low_x, ground.low_y, lowest_z_ + size_z_), 0);
+}
+
+void WindowMap::mark(const Voxel& block, const VoxelBlock& bits) {
+  const std::uint32_t cells = occupied_cells(bits);
+  constexpr std::uint32_t kColumns = 0x01010101;
+  const std::int32_t x = 2 * block.x - 1, y = 2 * block.y - 1;
+  std::uint8_t* row = columns_.get() + place(x, y, block.z);
+  // Rows that begin on the block's first row or behind it, with the cells that are new there.
+  for (int d = 0; d < 4; ++d) {
+    std::uint32_t held;
+    std::memcpy(&held, row + d * std::int64_t{size_x_}, sizeof held);
+    const std::uint32_t wanted = cells >> d & (0x0fU >> d) * kColumns;
+    for (std::uint32_t news = wanted & ~held & kColumns; news != 0; news &= news - 1) {
+      const std::int32_t i = std::countr_zero(news) / 8;
+      if (x + i >= ground_.low_x && x + i < ground_.end_x && y + d >= ground_.low_y &&
+          y + d < ground_.end_y)
+        ++occupied_[counter_of(x + i, y + d, block.z)];
+    }
+    held |= wanted;
+    std::memcpy(row + d * std::int64_t{size_x_}, &held, sizeof held);
+  }
+  // Rows before it that see it.
+  for (int d = 1; d < kTile; ++d) {
+    row -= size_x_;
+    std::uint32_t held;
+    std::memcpy(&held, row, sizeof held);
+    held |= (cells & (0xffU >> d) * kColumns) << d;
+    std::memcpy(row, &held, sizeof held);
+  }
+}
+
+std::size_t WindowMap::counter_of(std::int32_t x, std::int32_t y, std::int32_t z) const {
+  const auto along = [](std::int32_t length) { return static_cast<std::size_t>(length / kPatch); };
+  const std::size_t per_row = along(ground_.end_x - ground_.low_x),
+                    rows = along(ground_.end_y - ground_.low_y);
+  return (static_cast<std::size_t>(z - lowest_z_) * rows + along(y - ground_.low_y)) * per_row +
+         along(x - ground_.low_x);
+}
+
+}  // namespace voxlist::matching

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <vector>
+
+#include "voxlist/matching/engines/matcher.h"
+#include "voxlist/matching/search/search_result.h"
+#include "voxlist/matching/surfaces/refine.h"
+#include "voxlist/matching/surfaces/surfels.h"
+
+// What all engines do with the poses that they have found.
+
+namespace voxlist::matching {
+
+/// A mode that is not refined yet.
+MatchMode candidate(const Pose2& pose, double overlap);
+
+/// A search's modes, to be refined. `points`: how many were counted.
+std::vector<MatchMode> candidates_of(const SearchResult& found, std::size_t points);
+
+/// Whether one of the modes is about at this pose.
+bool holds(const std::vector<MatchMode>& modes, const Pose2& pose);
+
+/// Refines candidates and keeps the distinct ones, in their order.
+std::vector<MatchMode> refined(const SurfelMap& surfels, const RayPoints& points,
+                               const std::vector<MatchMode>& candidates,
+                               const RefineConfig& config = {});
+
+/// How much evidence speaks for a pose, at most 1: the share of hits among the ends of rays of
+/// which the map knows anything, less what rays went through. Unknown space hardly counts.
+double support(const Evidence& evidence);
+
+/// Weighs the match's modes by a scan's rays, and sorts them by their support.
+void weigh(const EvidenceMap& map, const std::vector<EvidenceRay>& rays, Match& match);
+
+/// log10 significance of the best of `poses` poses (paper, section IV): `occupied` of `volume`
+/// cells, and an overlap of that many of the points.
+double log10_significance(std::int64_t volume, std::int64_t occupied, std::size_t points,
+                          int overlap, double poses);
+
+}  // namespace voxlist::matching

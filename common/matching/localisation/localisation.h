@@ -1,0 +1,63 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "voxlist/geometry/pose.h"
+
+namespace voxlist::matching {
+
+/// How sure the localiser is of its pose.
+enum class LocalisationState {
+  /// No pose fits.
+  kLost = 0,
+  /// Several poses fit about as well: the modes name them.
+  kAmbiguous = 1,
+  /// The first mode is the pose. Only such clouds go into the map.
+  kTracking = 2,
+};
+
+/// LOST, AMBIGUOUS or TRACKING.
+const char* name(LocalisationState state);
+
+/// A candidate for the robot's pose.
+struct PoseMode {
+  Pose2 T_map_base;
+  /// Of (x, y, yaw): m^2, m rad, rad^2.
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  /// Matched points whose cell is occupied in the tolerant map, as a share, 0..1.
+  double overlap = 0.0;
+  /// How well map and scan agree there, at most 1 (see support() in match_modes.h): by rays close
+  /// together, and by few that are spread evenly over the surfaces that the scan sees. 0 while
+  /// tracking.
+  double support = 0.0;
+  double even_support = 0.0;
+  /// That this mode is right, 0..1; all modes' together are less than 1: none of them may be.
+  double probability = 0.0;
+};
+
+/// What is known of where one cloud was taken.
+struct Localisation {
+  std::int64_t utime_us = 0;
+  LocalisationState state = LocalisationState::kLost;
+  /// Best first; may be empty when LOST.
+  std::vector<PoseMode> modes;
+  /// log10 of the probability of the overlap by chance (paper, section IV), over all poses of the
+  /// lattice.
+  double significance_log10 = 0.0;
+  /// Places that are not listed may have this share of the first mode's support; 1: who knows.
+  /// After a search of the whole map.
+  double unseen = 1.0;
+  /// Probability that the first mode is right, 0..1.
+  double confidence = 0.0;
+  /// No pose of the searched lattice overlaps more than the best one found.
+  bool certified = false;
+  /// The whole map was searched, not a window around a prediction.
+  bool global = false;
+  std::int64_t poses_examined = 0;
+
+  bool tracking() const { return state == LocalisationState::kTracking; }
+};
+
+}  // namespace voxlist::matching

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "voxlist/geometry/cloud.h"
+#include "voxlist/matching/engines/matcher.h"
+#include "voxlist/matching/localisation/localisation.h"
+#include "voxlist/voxels/occupancy_map.h"
+
+namespace voxlist::matching {
+
+class EvidenceMap;
+struct EvidenceRay;
+class LostSearch;
+class PoseTrack;
+struct MotionLimits;
+
+struct LocaliserConfig {
+  MatcherConfig matcher;
+  /// Without odometry: the fastest that the robot moves and turns.
+  double max_speed_mps = 2.0;
+  double max_turn_rate_dps = 120.0;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v("max_speed_mps", max_speed_mps, "fastest motion to expect without odometry", 0.01, 50.0);
+    v("max_turn_rate_dps", max_turn_rate_dps, "fastest turn to expect without odometry", 1.0,
+      720.0);
+    matcher.visit(v);
+  }
+};
+
+/// Finds each cloud's pose in a map: tracks from the last pose and the motion since, and searches
+/// the whole map when it is lost. As long as one scan cannot tell where it is, candidates live on
+/// over the next scans and the motion between them (AMBIGUOUS), until one of them is sure; then it
+/// tracks. A track is given up when its pose no longer explains what the robot sees. Time is the
+/// clouds' own. Use from one thread.
+class Localiser {
+ public:
+  /// The map must outlive the localiser; call map_grew() or map_changed() after each change of it.
+  Localiser(const OccupancyMap& map, const LocaliserConfig& config = {});
+  ~Localiser();
+
+  /// The map is another one now, or has lost something. The next cloud pays for making it ready
+  /// (tens of milliseconds).
+  void map_changed();
+
+  /// These blocks of the map have gained something, and none have lost any. The next cloud's
+  /// result is the same as after map_changed(), and comes sooner.
+  void map_grew(const ChangedBlocks& grown);
+
+  /// Locates a cloud (in base). `T_odom_base`: odometry's pose at the cloud's time, if there is
+  /// odometry. In an empty map the cloud defines the map frame: TRACKING at the identity.
+  Localisation localise(const Cloud& cloud, const std::optional<Pose2>& T_odom_base = std::nullopt);
+
+  /// Locates a cloud by itself, without a guess and without memory.
+  Localisation locate(const Cloud& cloud);
+
+  /// Forgets where the robot was: the next cloud is searched for in the whole map.
+  void forget();
+
+ private:
+  MotionLimits limits() const;
+  Matcher& matcher();
+  const EvidenceMap& evidence();
+  static Localisation origin(const Cloud& cloud);
+  // Nothing when the track is lost.
+  std::optional<Localisation> track(const Cloud& cloud, const std::optional<Pose2>& T_odom_base);
+
+  bool fits_better_elsewhere(const Cloud& cloud, const std::vector<EvidenceRay>& rays,
+                             const Pose2& pose, double worth);
+
+  const OccupancyMap& map_;
+  const LocaliserConfig config_;
+  std::unique_ptr<Matcher> matcher_;
+  std::unique_ptr<EvidenceMap> evidence_;
+  std::unique_ptr<PoseTrack> track_;
+  std::unique_ptr<LostSearch> search_;
+};
+
+}  // namespace voxlist::matching

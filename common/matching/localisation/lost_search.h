@@ -1,0 +1,45 @@
+#pragma once
+
+#include <optional>
+
+#include "voxlist/geometry/cloud.h"
+#include "voxlist/matching/engines/matcher.h"
+#include "voxlist/matching/localisation/hypotheses.h"
+#include "voxlist/matching/localisation/localisation.h"
+#include "voxlist/matching/surfaces/evidence.h"
+
+namespace voxlist::matching {
+
+/// Fastest motion to expect where nothing measures it.
+struct MotionLimits {
+  double speed_mps = 0.0;
+  double turn_rate_radps = 0.0;
+};
+
+/// Finds a robot that does not know where it is: searches the whole map for each scan, and follows
+/// what it found over the motion between them, by odometry or from scan to scan, until one place is
+/// sure.
+class LostSearch {
+ public:
+  LostSearch(const MatcherConfig& config, const MotionLimits& limits)
+      : config_(config), limits_(limits) {}
+
+  /// Modes come with their probabilities, the most probable first. TRACKING: the first is sure.
+  /// AMBIGUOUS: one of the modes is probably right. LOST: probably none.
+  Localisation add(const Cloud& cloud, const std::optional<Pose2>& T_odom_base, Matcher& matcher,
+                   const EvidenceMap& evidence);
+
+ private:
+  std::optional<Pose2> motion_to(const Cloud& cloud, const std::optional<Pose2>& T_odom_base) const;
+
+  const MatcherConfig config_;
+  const MotionLimits limits_;
+  Hypotheses hypotheses_;
+  Cloud last_;
+  std::optional<Pose2> T_odom_last_;
+};
+
+/// The modes that an engine found, as yet without a state.
+Localisation from_match(const Cloud& cloud, const Match& match);
+
+}  // namespace voxlist::matching

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "voxlist/geometry/pose.h"
+
+namespace voxlist::matching {
+
+/// What is asked of a search for the poses of a lattice that overlap a map most.
+struct SearchConfig {
+  /// Modes reported beside the best one overlap at least this share of the best overlap.
+  double mode_ratio = 0.8;
+  /// Most modes reported.
+  std::size_t max_modes = 8;
+  /// Two poses nearer than this, both in distance and in heading, are one mode.
+  double mode_distance_m = 0.5;
+  double mode_turn_rad = 0.2;
+  /// Most nodes expanded; then the search stops early and says so.
+  std::int64_t max_nodes = 200'000;
+};
+
+/// A local best of the overlap.
+struct OverlapMode {
+  Pose2 pose;
+  /// Points whose cell is occupied in the tolerant map.
+  int overlap = 0;
+};
+
+/// What a search found.
+struct SearchResult {
+  /// Best first; empty when the scan or the map is empty.
+  std::vector<OverlapMode> modes;
+  /// No pose of the lattice overlaps more than the first mode. False: the node budget ended the
+  /// search.
+  bool certified = false;
+  /// Every distinct mode of at least mode_ratio is listed, up to max_modes. False: the node budget
+  /// ended the search.
+  bool complete = false;
+  /// No unseen pose overlaps more than this (equal to the best overlap when certified).
+  int bound = 0;
+  /// Poses of the lattice that was searched.
+  double lattice_poses = 0.0;
+  /// Nodes and poses whose overlap was counted.
+  std::int64_t poses_examined = 0;
+};
+
+}  // namespace voxlist::matching

@@ -1,0 +1,224 @@
+#include "voxlist/matching/surfaces/evidence.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "voxlist/voxels/fast_cell.h"
+#include "voxlist/voxels/numbering.h"
+
+namespace voxlist::matching {
+namespace {
+
+// What rays are not asked about (m): the robot itself, and the surroundings of what was hit.
+constexpr double kStart_m = 0.3, kEnd_m = 0.4;
+// Longer rays are followed this far (m).
+constexpr double kLongest_m = 100.0;
+// Rays are looked at in steps of this (m). One step in matter may be a corner grazed; a thing that
+// is passed takes two, and then this many free ones.
+constexpr double kStep_m = 0.03;
+constexpr int kStepsInMatter = 2, kStepsFree = 3;
+
+// A point that moves in steps, in fractions of a voxel: integers, so that steps cost little.
+struct Walker {
+  static constexpr int kFractionBits = 20;
+  std::int64_t x, y, z, step_x, step_y, step_z;
+
+  Walker(const Eigen::Vector3d& from, const Eigen::Vector3d& step, double voxel_m) {
+    const auto fixed = [&](double value_m) {
+      return std::llround(std::ldexp(value_m / voxel_m, kFractionBits));
+    };
+    x = fixed(from.x()), y = fixed(from.y()), z = fixed(from.z());
+    step_x = fixed(step.x()), step_y = fixed(step.y()), step_z = fixed(step.z());
+  }
+
+  Voxel at() const {
+    const auto cell = [](std::int64_t v) { return static_cast<std::int32_t>(v >> kFractionBits); };
+    return {cell(x), cell(y), cell(z)};
+  }
+
+  void move() { x += step_x, y += step_y, z += step_z; }
+};
+
+// Blocks of the map, 2^shift of them a cell: as few as keep the cells within bounds.
+BitGrid filled_cells(const VoxelMap& map, int& shift) {
+  if (map.block_count() == 0) return BitGrid({0, 0, 0}, 1, 1, 1);
+  Voxel low = map.block_position(0), high = low;
+  for (std::size_t i = 0; i < map.block_count(); ++i) {
+    const Voxel& v = map.block_position(i);
+    low = {std::min(low.x, v.x), std::min(low.y, v.y), std::min(low.z, v.z)};
+    high = {std::max(high.x, v.x), std::max(high.y, v.y), std::max(high.z, v.z)};
+  }
+  constexpr double kMostCells = 1 << 29;
+  const auto size = [&](std::int32_t a, std::int32_t b) { return (b >> shift) - (a >> shift) + 1; };
+  for (shift = 0;
+       double(size(low.x, high.x)) * size(low.y, high.y) * size(low.z, high.z) > kMostCells;)
+    ++shift;
+  BitGrid grid({low.x >> shift, low.y >> shift, low.z >> shift}, size(low.x, high.x),
+               size(low.y, high.y), size(low.z, high.z));
+  for (std::size_t i = 0; i < map.block_count(); ++i) {
+    const Voxel& v = map.block_position(i);
+    grid.set({v.x >> shift, v.y >> shift, v.z >> shift});
+  }
+  return grid;
+}
+
+// Bits 8 y + x for the x and y within two ranges of a block's 0..7, bounds cut to it.
+std::uint64_t square(std::int32_t low_x, std::int32_t high_x, std::int32_t low_y,
+                     std::int32_t high_y) {
+  std::uint64_t bits = 0;
+  for (std::int32_t y = std::max(0, low_y); y <= std::min(kBlockEdge - 1, high_y); ++y)
+    for (std::int32_t x = std::max(0, low_x); x <= std::min(kBlockEdge - 1, high_x); ++x)
+      bits |= std::uint64_t{1} << (kBlockEdge * y + x);
+  return bits;
+}
+
+// Whether a voxel of the block is within reach of one that is given relative to its lowest.
+bool touches(const VoxelBlock& block, const Voxel& v, std::int32_t reach) {
+  const std::uint64_t near = square(v.x - reach, v.x + reach, v.y - reach, v.y + reach);
+  for (std::int32_t z = std::max(0, v.z - reach); z <= std::min(kBlockEdge - 1, v.z + reach); ++z)
+    if (block[static_cast<std::size_t>(z)] & near) return true;
+  return false;
+}
+
+struct InCube {
+  std::uint64_t key;
+  std::size_t i;
+};
+
+// The first point of each cube, by layers first.
+std::vector<InCube> first_in_cubes(const Cloud& scan, double spacing_m) {
+  Numbering numbers(scan.points.size());
+  std::vector<InCube> firsts;
+  for (std::size_t i = 0; i < scan.points.size(); ++i) {
+    const auto& p = scan.points[i];
+    if (!in_lattice(p, kFinestResolution_m) || !in_lattice(scan.origin(i), kFinestResolution_m))
+      continue;
+    const std::uint64_t key = key_of(cell_at(p, 1.0 / spacing_m));
+    if (numbers.number(key) == firsts.size()) firsts.push_back({key, i});
+  }
+  std::sort(firsts.begin(), firsts.end(), [](auto& a, auto& b) { return a.key < b.key; });
+  return firsts;
+}
+
+}  // namespace
+
+std::vector<EvidenceRay> choose_evidence_rays(const Cloud& scan, std::size_t most,
+                                              double spacing_m) {
+  const std::vector<InCube> in_cubes = first_in_cubes(scan, spacing_m);
+  std::vector<std::pair<std::size_t, std::size_t>> layers;  // begin, end
+  for (std::size_t i = 0; i < in_cubes.size(); ++i) {
+    if (i == 0 || layer_of(in_cubes[i].key) != layer_of(in_cubes[i - 1].key))
+      layers.emplace_back(i, i);
+    layers.back().second = i + 1;
+  }
+  // The largest cap that `most` allow.
+  std::size_t low = 0, high = most;
+  while (low < high) {
+    const std::size_t cap = (low + high + 1) / 2;
+    std::size_t total = 0;
+    for (const auto& [begin, end] : layers) total += std::min(end - begin, cap);
+    (total <= most ? low : high) = total <= most ? cap : cap - 1;
+  }
+  std::vector<EvidenceRay> rays;
+  for (const auto& [begin, end] : layers) {
+    const std::size_t size = end - begin, kept = std::min(size, low);
+    for (std::size_t k = 0; k < kept; ++k) {
+      const std::size_t i = in_cubes[begin + k * size / kept].i;
+      rays.push_back({scan.origin(i), scan.points[i]});
+    }
+  }
+  return rays;
+}
+
+EvidenceMap::EvidenceMap(const OccupancyMap& map, double reach_m)
+    : map_(map),
+      reach_(static_cast<std::int32_t>(std::lround(reach_m / map.occupied.resolution_m()))),
+      filled_(filled_cells(map.occupied, shift_)) {}
+
+void EvidenceMap::map_grew(const ChangedBlocks& grown) {
+  for (const Voxel& block : grown.occupied) {
+    const Voxel cell = cell_of(block);
+    filled_.set(cell);
+    if (filled_.test(cell)) continue;
+    // Beyond the box.
+    filled_ = filled_cells(map_.occupied, shift_);
+    return;
+  }
+}
+
+Voxel EvidenceMap::cell_of(const Voxel& block) const {
+  return {block.x >> shift_, block.y >> shift_, block.z >> shift_};
+}
+
+Evidence EvidenceMap::at(const Pose2& pose, const std::vector<EvidenceRay>& rays) const {
+  Evidence sum;
+  const double c = std::cos(pose.yaw_rad), s = std::sin(pose.yaw_rad);
+  const auto moved = [&](const Eigen::Vector3f& p) {
+    return Eigen::Vector3d(pose.x_m + c * p.x() - s * p.y(), pose.y_m + s * p.x() + c * p.y(),
+                           p.z());
+  };
+  for (const EvidenceRay& ray : rays) {
+    const Eigen::Vector3d from = moved(ray.origin), to = moved(ray.end);
+    if (!in_lattice(to, kFinestResolution_m) || !in_lattice(from, kFinestResolution_m)) continue;
+    ++sum.points;
+    if (hit(to))
+      ++sum.hits;
+    else if (map_.passed.contains(voxel_at(to, map_.passed.resolution_m())))
+      ++sum.misses;
+    else
+      ++sum.unknown;
+    if ((to - from).norm() < kStart_m + kEnd_m) continue;
+    ++sum.rays;
+    sum.violations += violated(from, to);
+  }
+  return sum;
+}
+
+bool EvidenceMap::hit(const Eigen::Vector3d& end) const {
+  const Voxel v = voxel_at(end, map_.occupied.resolution_m());
+  const Voxel first = block_of({v.x - reach_, v.y - reach_, v.z - reach_}),
+              last = block_of({v.x + reach_, v.y + reach_, v.z + reach_});
+  for (Voxel b = first; b.z <= last.z; ++b.z)
+    for (b.y = first.y; b.y <= last.y; ++b.y)
+      for (b.x = first.x; b.x <= last.x; ++b.x) {
+        const VoxelBlock* block = map_.occupied.find_block(b);
+        if (block &&
+            touches(*block,
+                    {v.x - kBlockEdge * b.x, v.y - kBlockEdge * b.y, v.z - kBlockEdge * b.z},
+                    reach_))
+          return true;
+      }
+  return false;
+}
+
+bool EvidenceMap::in_matter(const Voxel& voxel) const {
+  const Voxel position = block_of(voxel);
+  if (!filled_.test(cell_of(position))) return false;
+  const VoxelBlock* block = map_.occupied.find_block(position);
+  if (!block) return false;
+  const auto z = static_cast<std::size_t>(voxel.z & 6);
+  const std::uint64_t two_by_two = std::uint64_t{0x303} << ((voxel.x & 6) + 8 * (voxel.y & 6));
+  return (((*block)[z] | (*block)[z + 1]) & two_by_two) != 0;
+}
+
+bool EvidenceMap::violated(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const {
+  const double length_m = (to - from).norm();
+  const Eigen::Vector3d way = (to - from) / length_m;
+  Walker walker(from + kStart_m * way, kStep_m * way, map_.occupied.resolution_m());
+  int in_matter_now = 0, free_since = 0;
+  bool passed = false;
+  const double looked_at_m = std::min(length_m, kLongest_m) - kStart_m - kEnd_m;
+  for (auto steps = static_cast<int>(looked_at_m / kStep_m); steps > 0; --steps) {
+    if (in_matter(walker.at())) {
+      passed = passed || ++in_matter_now >= kStepsInMatter;
+      free_since = 0;
+    } else {
+      in_matter_now = 0;
+      if (passed && ++free_since >= kStepsFree) return true;
+    }
+    walker.move();
+  }
+  return false;
+}
+
+}  // namespace voxlist::matching

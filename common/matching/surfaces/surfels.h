@@ -1,0 +1,98 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+#include "voxlist/voxels/occupancy_map.h"
+
+namespace voxlist::matching {
+
+/// A flat piece of a map's surface.
+struct Surfel {
+  /// Mean of the surface's voxels (m, map frame).
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  /// Unit normal: out of the surface, to where rays passed; its sign is arbitrary when two_sided.
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  /// Variance of the normal's direction (rad^2), by the scatter of the voxels.
+  double tilt_variance = 0.0;
+  /// Rays are known to have passed on both sides (a thin board), or on neither.
+  bool two_sided = true;
+
+  /// Whether a ray from `origin` may have ended at `point` on this side of the surface.
+  bool faces(const Eigen::Vector3d& origin, const Eigen::Vector3d& point) const {
+    return two_sided || normal.dot(origin - point) > 0.0;
+  }
+};
+
+struct SurfelConfig {
+  /// Edge of the cubes that are fitted with planes (m); rounded to whole blocks of the map.
+  double cell_m = 0.32;
+  /// Fewest voxels of a cube that make a surface.
+  int min_voxels = 6;
+  /// Largest standard deviation across a surface (m): rough and cluttered cubes are left out.
+  double max_thickness_m = 0.06;
+  /// Smallest ratio of the second-largest extent to the thickness: a line of points has no normal.
+  double min_flatness = 2.5;
+};
+
+/// The flat surfaces of a map: for each cube of voxels that is thin enough one plane, or two where
+/// both faces of a thin wall are in it. Sums of voxel coordinates are integers, so the planes
+/// depend on the map alone.
+///
+/// A cube is fitted when it is first asked for (about 2 us), so making one costs nothing; hence one
+/// thread at a time, reading too.
+class SurfelMap {
+ public:
+  /// The map must outlive it.
+  explicit SurfelMap(const OccupancyMap& map, const SurfelConfig& config = {});
+
+  /// The surfel of the cube that holds `point` that a ray from `origin` (both m, map frame) may
+  /// have ended on, the nearest if there are two; nullptr when there is none. Stays where it is.
+  const Surfel* find(const Eigen::Vector3d& point, const Eigen::Vector3d& origin) const {
+    Place place;
+    return find(point, origin, place);
+  }
+
+ private:
+  struct Cube;
+
+ public:
+  /// Where a point was looked up last.
+  struct Place {
+    Voxel position;
+    const Cube* cube = nullptr;
+  };
+
+  /// The same, quicker for a point that is mostly in the same cube as the time before.
+  const Surfel* find(const Eigen::Vector3d& point, const Eigen::Vector3d& origin,
+                     Place& place) const;
+
+  /// The map has changed: cubes are fitted anew when next asked for. (All: a surfel depends on what
+  /// rays passed round its cube, and a scan's rays pass most of what the next scan sees.) Surfels
+  /// that were found before must not be used any more.
+  void map_changed();
+
+ private:
+  struct Cube {
+    std::uint64_t key = 0;
+    bool fitted = false;
+    int count = 0;
+    Surfel sides[2];
+  };
+
+  std::size_t slot_of(std::uint64_t key) const;
+  Cube& cube_at(const Voxel& position) const;
+  void grow() const;
+  void fit(const Voxel& position, Cube& cube) const;
+
+  const OccupancyMap& map_;
+  const SurfelConfig config_;
+  std::int32_t blocks_;  // along a cube's edge
+  double cubes_per_m_;
+  mutable std::deque<Cube> cubes_;
+  mutable std::vector<std::uint32_t> directory_;  // open addressing; 0: free, else cube + 1
+};
+
+}  // namespace voxlist::matching

@@ -1,0 +1,125 @@
+#include "voxlist/scanner/arms/line_motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace voxlist::scanner {
+namespace {
+
+// A range has changed when it did by more than what driving and turning make of it.
+constexpr float kChange_m = 0.06F, kRelativeChange = 0.07F;
+
+// A robot that turns while the mirror stands moves what the beams meet by so many beams.
+constexpr std::size_t kTurned_beams = 3;
+
+constexpr int kMinReturns = 20;
+constexpr double kMovingShare = 0.25;
+
+constexpr std::size_t kMaxLines = 80;
+
+// Passages that are remembered: of two arms, four turns.
+constexpr std::size_t kPassages = 8, kMinPassages = 3;
+
+// Longer than normal, for certain.
+constexpr double kFactor = 1.3, kMargin_us = 80'000.0;
+
+// Time without lines is no stillness: a line speaks for the time since the one before it, or for
+// two lines' at most, and nobody saw what happened in a hole longer than this.
+constexpr double kLineSpeaks_us = 30'000.0;
+constexpr std::int64_t kMaxGap_us = 100'000;
+
+// The nearest and the farthest of what a beam and its neighbours within kTurned_beams met; NaN when
+// the beam measured nothing.
+struct Envelope {
+  float near_m, far_m;
+};
+
+Envelope envelope(const std::vector<float>& ranges_m, std::size_t beam) {
+  const std::size_t first = beam < kTurned_beams ? 0 : beam - kTurned_beams;
+  const std::size_t last = std::min(beam + kTurned_beams, ranges_m.size() - 1);
+  Envelope result{ranges_m[beam], ranges_m[beam]};
+  for (std::size_t i = first; i <= last; ++i) {
+    if (ranges_m[i] < result.near_m) result.near_m = ranges_m[i];
+    if (ranges_m[i] > result.far_m) result.far_m = ranges_m[i];
+  }
+  return result;
+}
+
+LineMotion::Seen compare(const LaserLine& now, const LaserLine& before) {
+  int returns = 0, changed = 0;
+  for (std::size_t i = 0; i < now.ranges_m.size(); ++i) {
+    const float range_m = now.ranges_m[i];
+    const Envelope was = envelope(before.ranges_m, i);
+    const bool tells = std::isfinite(range_m) ? !std::isnan(was.near_m) : std::isfinite(was.far_m);
+    if (!tells || std::isnan(range_m)) continue;
+    ++returns;
+    const float slack_m = kChange_m + kRelativeChange * std::min(range_m, was.near_m);
+    changed += range_m < was.near_m - slack_m || range_m > was.far_m + slack_m;
+  }
+  if (returns < kMinReturns) return LineMotion::Seen::kNothing;
+  return changed > kMovingShare * returns ? LineMotion::Seen::kMoving : LineMotion::Seen::kStill;
+}
+
+}  // namespace
+
+LineMotion::Seen LineMotion::add(const LaserLine& line, double lag_us) {
+  const LaserLine* best = nullptr;
+  double best_off_us = 0.3 * lag_us;
+  for (const LaserLine& earlier : lines_) {
+    const bool same_beams = earlier.ranges_m.size() == line.ranges_m.size() &&
+                            earlier.first_angle_rad == line.first_angle_rad;
+    const auto lag = static_cast<double>(line.utime_us - earlier.utime_us);
+    if (!same_beams || std::abs(lag - lag_us) > best_off_us) continue;
+    best = &earlier;
+    best_off_us = std::abs(lag - lag_us);
+  }
+  const Seen seen = best == nullptr ? Seen::kNothing : compare(line, *best);
+  lines_.push_back(line);
+  if (lines_.size() > kMaxLines) lines_.pop_front();
+  return seen;
+}
+
+void StallWatch::add(LineMotion::Seen seen, std::int64_t utime_us) {
+  const std::int64_t gap_us = utime_us - last_us_.value_or(utime_us);
+  last_us_ = utime_us;
+  if (gap_us > kMaxGap_us) {
+    still_us_ = since_moving_us_ = 0.0;
+    hole_since_passage_ = true;
+  }
+  const double spoken_for_us = std::clamp(static_cast<double>(gap_us), 0.0, kLineSpeaks_us);
+  since_moving_us_ += spoken_for_us;
+  moving_lines_ = seen == LineMotion::Seen::kMoving ? moving_lines_ + 1 : 0;
+  if (moving_lines_ > 0) still_us_ = since_moving_us_ = 0.0;
+  if (seen == LineMotion::Seen::kStill) still_us_ += spoken_for_us;
+  longest_still_.since_passage_us = std::max(longest_still_.since_passage_us, still_us_);
+  longest_unmoved_.since_passage_us = std::max(longest_unmoved_.since_passage_us, since_moving_us_);
+}
+
+void StallWatch::turned() {
+  // A hole has cut short what would have been normal.
+  if (std::exchange(hole_since_passage_, false)) return;
+  longest_still_.passed(still_us_);
+  longest_unmoved_.passed(since_moving_us_);
+}
+
+bool StallWatch::knows_normal() const { return longest_still_.earlier_us.size() >= kMinPassages; }
+
+bool StallWatch::stalled() const {
+  return knows_normal() && still_us_ > kFactor * longest_still_.normal_us() + kMargin_us;
+}
+
+bool StallWatch::moving() const {
+  const double normal_us = knows_normal() ? longest_unmoved_.normal_us() : 0.0;
+  return since_moving_us_ < std::max(kRestless_us, normal_us + kMargin_us);
+}
+
+void StallWatch::Longest::passed(double now_us) {
+  earlier_us.push_back(since_passage_us);
+  if (earlier_us.size() > kPassages) earlier_us.pop_front();
+  since_passage_us = now_us;
+}
+
+double StallWatch::Longest::normal_us() const { return *std::ranges::max_element(earlier_us); }
+
+}  // namespace voxlist::scanner

@@ -1,0 +1,98 @@
+#include "voxlist/scanner/sweep/beam_geometry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "voxlist/scanner/sweep/cloud_assembler_config.h"
+
+namespace voxlist::scanner {
+namespace {
+
+constexpr double kRadians = std::numbers::pi / 180.0;
+constexpr double kTurn_rad = 2.0 * std::numbers::pi;
+
+// A beam at the very first or last angle belongs to the mirror, however its angle was rounded.
+constexpr double kAngleSlack_rad = 1e-4;
+
+}  // namespace
+
+const char* name(BeamFate fate) {
+  constexpr std::array<const char*, kBeamFates> kNames{
+      "points",        "off_mirror", "blind",   "no_measurement", "no_return",
+      "before_mirror", "too_near",   "too_far", "robot"};
+  return kNames[static_cast<std::size_t>(fate)];
+}
+
+BeamGeometry::BeamGeometry(const CloudAssemblerConfig& config)
+    : model_(config.geometry.model()),
+      T_base_laser_(config.geometry.T_base_laser()),
+      first_rad_(config.beam_first_deg * kRadians - kAngleSlack_rad),
+      last_rad_(config.beam_last_deg * kRadians + kAngleSlack_rad),
+      range_min_m_(config.range_min_m),
+      range_max_m_(config.range_max_m) {
+  if (first_rad_ >= last_rad_)
+    throw std::invalid_argument("beam_first_deg must be below beam_last_deg");
+  if (range_min_m_ >= range_max_m_)
+    throw std::invalid_argument("range_min_m must be below range_max_m");
+  const auto& blind = config.blind_phi_deg;
+  if (blind.size() % 2 != 0) throw std::invalid_argument("blind_phi_deg must be pairs from, to");
+  for (std::size_t i = 0; i < blind.size(); i += 2) {
+    if (blind[i] >= blind[i + 1])
+      throw std::invalid_argument("blind_phi_deg: each from must be below its to");
+    blind_.push_back({blind[i] * kRadians, (blind[i + 1] - blind[i]) * kRadians});
+  }
+  const auto& boxes = config.robot_boxes_m;
+  if (boxes.size() % 6 != 0)
+    throw std::invalid_argument("robot_boxes_m must be boxes of six numbers");
+  for (std::size_t i = 0; i < boxes.size(); i += 6) {
+    const Bounds box{{boxes[i], boxes[i + 2], boxes[i + 4]},
+                     {boxes[i + 1], boxes[i + 3], boxes[i + 5]}};
+    if ((box.low >= box.high).any())
+      throw std::invalid_argument("robot_boxes_m: each from must be below its to");
+    robot_.push_back(box);
+  }
+}
+
+BeamFate BeamGeometry::follow(double psi_rad, double beam_rad, float range_m, BeamHit& hit) const {
+  if (beam_rad < first_rad_ || beam_rad > last_rad_) return BeamFate::kOffMirror;
+  const MirrorModel<>::Ray ray = model_.reflect(psi_rad, beam_rad);
+  if (is_blind(phi_rad(psi_rad, ray.side))) return BeamFate::kBlind;
+  if (std::isnan(range_m)) return BeamFate::kNoMeasurement;
+  if (std::isinf(range_m)) return BeamFate::kNoReturn;
+  const double range_from_mirror_m = static_cast<double>(range_m) - ray.path_m;
+  // Nearly edge-on, the plane that the plate lies in may be met anywhere, even below the laser.
+  if (!(ray.path_m > 0.0)) return BeamFate::kOffMirror;
+  if (range_from_mirror_m < 0.0) return BeamFate::kBeforeMirror;
+  if (range_from_mirror_m < range_min_m_) return BeamFate::kTooNear;
+  if (range_from_mirror_m > range_max_m_) return BeamFate::kTooFar;
+  const Eigen::Vector3d point =
+      T_base_laser_ * (ray.origin_m + range_from_mirror_m * ray.direction);
+  if (is_robot(point)) return BeamFate::kRobot;
+  hit = {T_base_laser_ * ray.origin_m, point};
+  return BeamFate::kPoint;
+}
+
+int BeamGeometry::side(double psi_rad) const {
+  return model_.reflect(psi_rad, std::numbers::pi / 2.0).side;
+}
+
+double BeamGeometry::phi_rad(double psi_rad, int side) const {
+  return 2.0 * (psi_rad + model_.phase_rad[static_cast<std::size_t>(side)]);
+}
+
+bool BeamGeometry::is_blind(double phi_rad) const {
+  return std::ranges::any_of(blind_, [phi_rad](const Interval& interval) {
+    const double turns = (phi_rad - interval.from_rad) / kTurn_rad;
+    return (turns - std::floor(turns)) * kTurn_rad <= interval.width_rad;
+  });
+}
+
+bool BeamGeometry::is_robot(const Eigen::Vector3d& point) const {
+  return std::ranges::any_of(robot_, [&point](const Bounds& box) {
+    return (point.array() >= box.low).all() && (point.array() <= box.high).all();
+  });
+}
+
+}  // namespace voxlist::scanner

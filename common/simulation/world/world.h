@@ -1,0 +1,30 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "voxlist/simulation/building/building.h"
+#include "voxlist/simulation/world/trajectory.h"
+
+namespace voxlist::simulation {
+
+/// A building, which stands, and people, who walk in it.
+class World {
+ public:
+  explicit World(Building building, std::vector<Trajectory> people = {});
+
+  /// Distance along the unit vector `direction` to the first thing hit at a time; none when the ray
+  /// leaves the world.
+  std::optional<double> range(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
+                              double t_s) const;
+
+  const Building& building() const { return building_; }
+  const std::vector<Trajectory>& people() const { return people_; }
+
+ private:
+  const Building building_;
+  const std::vector<Trajectory> people_;
+};
+
+}  // namespace voxlist::simulation

@@ -1,0 +1,124 @@
+#include "voxlist/calibration/calibrate.h"
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <stdexcept>
+
+#include "services/voxlist/commands/command.h"
+#include "services/voxlist/commands/settings.h"
+#include "services/voxlist/output/console.h"
+#include "services/voxlist/output/text.h"
+#include "services/voxlist/recording/scanner_log.h"
+#include "voxlist/config/edit.h"
+#include "voxlist/io/files/atomic_file.h"
+#include "voxlist/io/files/file.h"
+
+namespace voxlist::desk {
+namespace {
+
+struct CalibrateOptions {
+  std::filesystem::path log;
+  std::filesystem::path config;
+  std::filesystem::path output;
+
+  // Where the scanner's present settings stand: nowhere at first.
+  std::filesystem::path settings() const {
+    const bool updates = config.empty() && std::filesystem::exists(output);
+    return updates ? output : config;
+  }
+};
+
+constexpr auto kTable = "cloud_assembler";
+constexpr int kNameWidth = -22;
+constexpr int kNumberWidth = 12;
+
+using Values = std::vector<std::pair<std::string, std::string>>;
+
+// In the file's units.
+std::string told(std::size_t parameter, double value) {
+  const calibration::ParameterInfo& info = calibration::kParameterInfos[parameter];
+  return fixed(value * info.file_units, info.decimals);
+}
+
+void tell(const calibration::CalibrationAnswer& answer, const calibration::ParameterVector& before,
+          Console& console) {
+  const auto row = [&](const std::string& name, const std::vector<std::string>& cells) {
+    std::string line = padded(name, kNameWidth);
+    for (const std::string& cell : cells) line += padded(cell, kNumberWidth);
+    console.say(line);
+  };
+  row("parameter", {"before", "after", "sd"});
+  for (std::size_t i = 0; i < calibration::kParameterInfos.size(); ++i) {
+    const int k = static_cast<int>(i);
+    row(calibration::kParameterInfos[i].key, {told(i, before[k]), told(i, answer.parameters[k]),
+                                              answer.held[i] ? "held" : told(i, answer.sd[k])});
+  }
+  console.say("surfaces are " + fixed(answer.thickness_before_m * 1e3, 1) + " mm thick before, " +
+              fixed(answer.thickness_after_m * 1e3, 1) + " mm after (RMS over " +
+              std::to_string(answer.surfaces) + " surfaces; " + std::to_string(answer.beams) +
+              " beams of " + std::to_string(answer.lines) + " lines)");
+}
+
+Values values_of(const calibration::CalibrationAnswer& answer) {
+  Values values;
+  for (std::size_t i = 0; i < calibration::kParameterInfos.size(); ++i)
+    if (!answer.held[i])
+      values.emplace_back(calibration::kParameterInfos[i].key,
+                          told(i, answer.parameters[static_cast<int>(i)]));
+  return values;
+}
+
+std::string edited(const std::filesystem::path& file, const Values& values) {
+  try {
+    return config::with_numbers(file.empty() ? "" : io::read_file(file), kTable, values);
+  } catch (const io::FileError&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    throw io::FileError(file, error.what());
+  }
+}
+
+void give(const CalibrateOptions& options, const Values& values, Console& console) {
+  if (options.output.empty()) {
+    std::string lines = config::with_numbers("", kTable, values);
+    lines.pop_back();
+    return console.say(lines);
+  }
+  io::write_file_atomically(options.output, edited(options.settings(), values));
+  console.say(options.output.string());
+}
+
+int run(const CalibrateOptions& options, Console& console) {
+  const scanner::CloudAssemblerConfig scanner = read_scanner_settings(options.settings());
+  const calibration::Calibration result =
+      calibration::calibrate(read_scanner_log(options.log, console), scanner, {});
+  if (result.answer) tell(*result.answer, calibration::parameters_of(scanner.geometry), console);
+  for (const std::string& warning : result.warnings) console.warn(warning);
+  for (const std::string& refusal : result.refusals) console.warn("refused: " + refusal);
+  if (!result.refusals.empty()) return 1;
+  give(options, values_of(*result.answer), console);
+  return 0;
+}
+
+}  // namespace
+
+void add_calibrate(CLI::App& program, Command& chosen) {
+  CLI::App* command = program.add_subcommand(
+      "calibrate",
+      "Finds the scanner's mirror phases, heights, tilts and latency from a minute of a still "
+      "room.");
+  const auto options = std::make_shared<CalibrateOptions>();
+  command->add_option("LOG", options->log, "LCM log with LASER, MIRROR and ODOMETRY")->required();
+  command->add_option("--config", options->config,
+                      "the robot's settings to start from; default: those of -o, if there");
+  command->add_option("-o,--output", options->output,
+                      "the robot's settings to write; without it the lines are only shown");
+  command->footer(
+      "Example:\n"
+      "  voxlist calibrate still.lcm -o services/robot.toml");
+  command->callback([options, &chosen] {
+    chosen = [options](Console& console) { return run(*options, console); };
+  });
+}
+
+}  // namespace voxlist::desk

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <functional>
+
+namespace CLI {
+class App;
+}
+
+namespace voxlist::desk {
+
+class Console;
+
+/// What the command line asked for; returns the exit code.
+using Command = std::function<int(Console&)>;
+
+// One for each subcommand: adds it with its options to the program. When it is chosen, `chosen`
+// becomes the command to run.
+void add_import(CLI::App& program, Command& chosen);
+void add_map(CLI::App& program, Command& chosen);
+void add_localise(CLI::App& program, Command& chosen);
+void add_evaluate(CLI::App& program, Command& chosen);
+void add_simulate(CLI::App& program, Command& chosen);
+void add_calibrate(CLI::App& program, Command& chosen);
+void add_watch(CLI::App& program, Command& chosen);
+
+}  // namespace voxlist::desk

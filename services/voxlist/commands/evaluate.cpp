@@ -1,0 +1,95 @@
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <numbers>
+
+#include "services/voxlist/commands/command.h"
+#include "services/voxlist/output/console.h"
+#include "services/voxlist/output/text.h"
+#include "voxlist/evaluation/evaluation.h"
+#include "voxlist/io/files/file.h"
+#include "voxlist/io/poses/trajectory.h"
+
+namespace voxlist::desk {
+namespace {
+
+struct EvaluateOptions {
+  std::filesystem::path trajectory;
+  std::filesystem::path truth;
+  std::filesystem::path plot;
+};
+
+constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
+constexpr double kPercent = 100.0;
+constexpr int kNameWidth = -32;
+constexpr int kNumberWidth = 10;
+
+std::string line(const std::string& name, const std::vector<std::string>& cells) {
+  std::string text = padded(name, kNameWidth);
+  for (const std::string& cell : cells) text += padded(cell, kNumberWidth);
+  return text;
+}
+
+std::string line(const std::string& name, const evaluation::ErrorStatistics& errors,
+                 double scale = 1.0) {
+  std::vector<std::string> cells;
+  for (const double value : {errors.rmse, errors.mean, errors.median, errors.max}) {
+    cells.push_back(fixed(value * scale, 4));
+  }
+  return line(name, cells);
+}
+
+void tell(const evaluation::TrajectoryErrors& errors, Console& console) {
+  const bool by_time = errors.association == evaluation::Association::kByTime;
+  console.say(std::to_string(errors.matched) + " of " + std::to_string(errors.in_truth) +
+              " poses matched by " + (by_time ? "time" : "scan number"));
+  console.say(line("error", {"rmse", "mean", "median", "max"}));
+  console.say("absolute, best fit");
+  console.say(line("  position (m)", errors.aligned_m));
+  console.say(line("  heading (deg)", errors.aligned_heading_rad, kDegreesPerRadian));
+  console.say("absolute, from the first pose on");
+  console.say(line("  position (m)", errors.anchored_m));
+  if (errors.anchored_3d_m) console.say(line("  position with height (m)", *errors.anchored_3d_m));
+  console.say(line("  heading (deg)", errors.anchored_heading_rad, kDegreesPerRadian));
+  console.say(line("  last position (m)", {fixed(errors.end_position_m, 4)}));
+  console.say("relative");
+  console.say(line("  pose to pose (m)", errors.step_m));
+  console.say(line("  pose to pose (deg)", errors.step_rad, kDegreesPerRadian));
+  console.say(line("  over 1 m and more (%)", errors.per_metre_m, kPercent));
+  console.say(line("  over 1 m and more (deg/m)", errors.per_metre_rad, kDegreesPerRadian));
+}
+
+int run(const EvaluateOptions& options, Console& console) {
+  const auto errors =
+      evaluation::evaluate(io::read_tum(options.trajectory), io::read_pose_csv(options.truth));
+  if (!errors) {
+    throw io::FileError(options.truth, "has no pose for any of " + options.trajectory.string() +
+                                           ", check that both are of the same run");
+  }
+  tell(*errors, console);
+  const auto plot =
+      options.plot.empty() ? options.trajectory.parent_path() / "evaluation.png" : options.plot;
+  drawing::write_png(plot, evaluation::draw_errors(*errors));
+  console.say(plot.string());
+  return 0;
+}
+
+}  // namespace
+
+void add_evaluate(CLI::App& program, Command& chosen) {
+  CLI::App* command = program.add_subcommand(
+      "evaluate", "Compares a trajectory with the true poses: absolute and relative errors.");
+  const auto options = std::make_shared<EvaluateOptions>();
+  command->add_option("TRAJECTORY", options->trajectory, "trajectory.tum of a map folder")
+      ->required();
+  command->add_option("POSES", options->truth, "table of the true poses (poses.csv)")->required();
+  command->add_option("-o,--output", options->plot,
+                      "the plot to write; default evaluation.png beside the trajectory");
+  command->footer(
+      "Example:\n"
+      "  voxlist evaluate hall_map/trajectory.tum hall/poses.csv");
+  command->callback([options, &chosen] {
+    chosen = [options](Console& console) { return run(*options, console); };
+  });
+}
+
+}  // namespace voxlist::desk

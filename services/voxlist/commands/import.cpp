@@ -1,0 +1,118 @@
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "services/voxlist/commands/command.h"
+#include "services/voxlist/output/fresh_file.h"
+#include "services/voxlist/output/progress.h"
+#include "services/voxlist/output/stop.h"
+#include "services/voxlist/recording/recording.h"
+#include "voxlist/bus/event_log.h"
+#include "voxlist/io/files/file.h"
+
+namespace voxlist::desk {
+namespace {
+
+struct ImportOptions {
+  std::filesystem::path scans;
+  std::filesystem::path log;
+};
+
+// How many messages of each kind a log got.
+struct Written {
+  std::int64_t scans = 0, odometry = 0, truths = 0;
+};
+
+class Importer {
+ public:
+  Importer(const std::string& path, Omissions& omissions) : omissions_(omissions), log_(path) {}
+
+  void operator()(const CloudRecord& record) {
+    written_.scans += write(bus::kCloud, record.message);
+  }
+  void operator()(const OdometryRecord& record) {
+    written_.odometry += write(bus::kOdometry, record.message);
+  }
+  void operator()(const TruthRecord& record) {
+    written_.truths += write(bus::kTruth, record.message);
+  }
+
+  void close() { log_.close(); }
+  const Written& written() const { return written_; }
+
+ private:
+  // At the data's own time, so that a replay runs at the data's pace. Returns how many were
+  // written.
+  template <class M>
+  int write(bus::Channel<M> channel, const M& message) {
+    std::vector<std::uint8_t> bytes;
+    if (const bus::Fault fault = bus::encode(message, bytes); fault != bus::Fault::kNone) {
+      const std::string reason = std::string(channel.name) + "/" + bus::fault_name(fault);
+      omissions_.add(reason, reason + " at utime " + std::to_string(message.utime));
+      return 0;
+    }
+    log_.write(channel.name, message.utime, bytes);
+    return 1;
+  }
+
+  Omissions& omissions_;
+  bus::EventLogWriter log_;
+  Written written_;
+};
+
+std::string summary(const ImportOptions& options, const Written& written) {
+  return options.log.string() + ": " + std::to_string(written.scans) + " CLOUD, " +
+         std::to_string(written.odometry) + " ODOMETRY, " + std::to_string(written.truths) +
+         " TRUTH";
+}
+
+int import_scans(const ImportOptions& options, Console& console) {
+  Omissions omissions(console);
+  const auto folder = open_folder_recording(options.scans, omissions);
+  FreshFile file(options.log);
+  Importer importer(file.path(), omissions);
+  {
+    Progress progress(console, "importing scans");
+    while (!stop_requested()) {
+      const auto record = folder->next();
+      if (!record) break;
+      std::visit(importer, *record);
+      progress.show(folder->progress());
+    }
+  }
+  importer.close();
+  if (importer.written().scans == 0) {
+    throw io::FileError(options.scans,
+                        stop_requested() ? "interrupted before the first scan, nothing was written"
+                                         : "has no scan that can be read, nothing was written");
+  }
+  file.publish();
+  console.say(summary(options, importer.written()));
+  if (!omissions.empty()) console.warn("left out: " + omissions.summary());
+  if (stop_requested()) console.warn("interrupted: the log ends there");
+  return stop_requested() ? kInterrupted : 0;
+}
+
+}  // namespace
+
+void add_import(CLI::App& program, Command& chosen) {
+  CLI::App* import = program.add_subcommand(
+      "import", "Turns a folder of scans into an LCM log of CLOUD messages.");
+  const auto options = std::make_shared<ImportOptions>();
+  import
+      ->add_option("SCANS_DIR", options->scans,
+                   "folder of scan_*.ply or scan_*.pcd; poses.csv in it becomes TRUTH, "
+                   "odometry.csv ODOMETRY")
+      ->required();
+  import->add_option("-o,--output", options->log, "the log to write; an old one is replaced")
+      ->required();
+  import->footer(
+      "Example:\n"
+      "  voxlist import hall -o hall.lcmlog && scripts/replay hall.lcmlog");
+  import->callback([options, &chosen] {
+    chosen = [options](Console& console) { return import_scans(*options, console);
+};
+}  // namespace voxlist::desk
+);
+}
+
+}  // namespace voxlist::desk

@@ -1,0 +1,138 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <memory>
+
+#include "services/voxlist/commands/command.h"
+#include "services/voxlist/commands/settings.h"
+#include "services/voxlist/output/fresh_file.h"
+#include "services/voxlist/output/progress.h"
+#include "services/voxlist/output/stop.h"
+#include "services/voxlist/output/text.h"
+#include "services/voxlist/recording/scan_input.h"
+#include "voxlist/io/files/atomic_file.h"
+#include "voxlist/io/files/file.h"
+#include "voxlist/mapping/map_store.h"
+
+namespace voxlist::desk {
+namespace {
+
+struct LocaliseOptions {
+  std::filesystem::path map;
+  std::filesystem::path input;
+  std::filesystem::path result;
+  std::filesystem::path config;
+};
+
+// One scan's answer, and what it cost.
+struct Located {
+  std::int64_t number;
+  matching::Localisation localisation;
+  double elapsed_ms;
+};
+
+constexpr auto kHeader = "index,state,x_m,y_m,yaw_rad,overlap,confidence,elapsed_ms\n";
+
+std::string row(const Located& located) {
+  const matching::Localisation& found = located.localisation;
+  std::string pose = ",,";
+  double overlap = 0.0;
+  if (!found.modes.empty()) {
+    const Pose2& best = found.modes.front().T_map_base;
+    pose = fixed(best.x_m, 6) + "," + fixed(best.y_m, 6) + "," + fixed(best.yaw_rad, 9);
+    overlap = found.modes.front().overlap;
+  }
+  return std::to_string(located.number) + "," + name(found.state) + "," + pose + "," +
+         fixed(overlap, 6) + "," + fixed(found.confidence, 6) + "," + fixed(located.elapsed_ms, 3) +
+         "\n";
+}
+
+mapping::MapBuilder build(const std::filesystem::path& folder,
+                          const mapping::MapBuilderConfig& config, Console& console) {
+  mapping::StoredMap stored = mapping::load_map(folder);
+  if (!stored.warning.empty()) console.warn(stored.warning);
+  if (stored.keyframes.empty()) {
+    throw io::FileError(folder, "holds an empty map, make one with voxlist map");
+  }
+  mapping::MapBuilder builder(config);
+  for (mapping::Keyframe& keyframe : stored.keyframes) builder.add(std::move(keyframe));
+  return builder;
+}
+
+Located locate(matching::Localiser& localiser, const Scan& scan) {
+  const auto start = std::chrono::steady_clock::now();
+  matching::Localisation found = localiser.locate(scan.cloud);
+  const std::chrono::duration<double, std::milli> elapsed =
+      std::chrono::steady_clock::now() - start;
+  return {scan.number, std::move(found), elapsed.count()};
+}
+
+std::vector<Located> locate_all(matching::Localiser& localiser, ScanInput& input,
+                                Console& console) {
+  std::vector<Located> results;
+  Progress progress(console, "localising");
+  while (const auto scan = input.next()) {
+    results.push_back(locate(localiser, *scan));
+    progress.show(input.progress());
+  }
+  return results;
+}
+
+std::string summary(const std::vector<Located>& results) {
+  const auto count = [&](matching::LocalisationState state) {
+    const auto is = [state](const Located& l) { return l.localisation.state == state; };
+    return std::to_string(std::ranges::count_if(results, is)) + " " + name(state);
+  };
+  std::vector<double> times_ms;
+  for (const Located& located : results) times_ms.push_back(located.elapsed_ms);
+  std::ranges::sort(times_ms);
+  std::string text = std::to_string(results.size()) +
+                     " scans: " + count(matching::LocalisationState::kTracking) + ", " +
+                     count(matching::LocalisationState::kAmbiguous) + ", " +
+                     count(matching::LocalisationState::kLost);
+  if (times_ms.empty()) return text;
+  return text + "; a scan took " + fixed(times_ms[times_ms.size() / 2], 1) + " ms (median), " +
+         fixed(times_ms.back(), 1) + " ms at most";
+}
+
+int localise(const LocaliseOptions& options, Console& console) {
+  const DeskSettings settings = read_settings(options.config);
+  FreshFile file(options.result);
+  const mapping::MapBuilder builder = build(options.map, settings.mapper, console);
+  matching::Localiser localiser(builder.map(), settings.localiser);
+  ScanInput input(options.input, console);
+  const std::vector<Located> results = locate_all(localiser, input, console);
+
+  std::string table = kHeader;
+  for (const Located& located : results) table += row(located);
+  io::write_file_atomically(file.path(), table);
+  file.publish();
+  if (!input.omissions().empty()) console.warn("left out: " + input.omissions().summary());
+  console.say(summary(results));
+  console.say(options.result.string());
+  if (stop_requested()) console.warn("interrupted: the table ends there");
+  return stop_requested() ? kInterrupted : 0;
+}
+
+}  // namespace
+
+void add_localise(CLI::App& program, Command& chosen) {
+  CLI::App* command = program.add_subcommand(
+      "localise", "Finds each scan in a map by itself: no guess, no memory of the scan before.");
+  const auto options = std::make_shared<LocaliseOptions>();
+  command->add_option("MAPDIR", options->map, "map folder, as voxlist map or the mapper made it")
+      ->required();
+  command->add_option("INPUT", options->input, "LCM log with CLOUD, or folder of scans")
+      ->required();
+  command->add_option("-o,--output", options->result, "the table to write (result.csv)")
+      ->required();
+  command->add_option("--config", options->config, "the robot's settings (services/robot.toml)");
+  command->footer(
+      "Example:\n"
+      "  voxlist localise hall_map second_visit -o result.csv");
+  command->callback([options, &chosen] {
+    chosen = [options](Console& console) { return localise(*options, console); };
+  });
+}
+
+}  // namespace voxlist::desk

@@ -1,0 +1,150 @@
+#include <tbb/global_control.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <memory>
+
+#include "services/voxlist/commands/command.h"
+#include "services/voxlist/commands/settings.h"
+#include "services/voxlist/output/map_files.h"
+#include "services/voxlist/output/progress.h"
+#include "services/voxlist/output/stop.h"
+#include "services/voxlist/output/text.h"
+#include "services/voxlist/recording/given_poses.h"
+#include "voxlist/io/files/file.h"
+
+namespace voxlist::desk {
+namespace {
+
+struct MapOptions {
+  std::filesystem::path input;
+  std::filesystem::path folder;
+  std::filesystem::path poses;
+  std::filesystem::path config;
+  double octomap_resolution_m = 0.0;
+  int threads = 0;
+};
+
+// Places all scans by themselves.
+void localise_all(ScanInput& input, MapRun& run, Progress& progress) {
+  while (auto scan = input.next()) {
+    run.localise(std::move(*scan));
+    progress.show(input.progress());
+  }
+}
+
+// Places the scans that the table knows. Returns how many it does not know.
+std::int64_t place_all(const std::filesystem::path& table, ScanInput& input, MapRun& run,
+                       Progress& progress) {
+  const GivenPoses poses(table, input);
+  std::int64_t unknown = 0;
+  while (auto scan = input.next()) {
+    if (const auto pose = poses.of(*scan)) {
+      run.place(std::move(*scan), *pose);
+    } else {
+      ++unknown;
+    }
+    progress.show(input.progress());
+  }
+  if (input.scans() > 0 && unknown == input.scans()) {
+    throw io::FileError(table, "matches none of the scans, check its times, index or file column");
+  }
+  return unknown;
+}
+
+RunFigures make_map(const MapOptions& options, ScanInput& input, MapRun& run, Console& console) {
+  RunFigures figures;
+  const auto start = std::chrono::steady_clock::now();
+  {
+    Progress progress(console, "mapping");
+    if (options.poses.empty()) {
+      localise_all(input, run, progress);
+    } else {
+      figures.without_pose = place_all(options.poses, input, run, progress);
+    }
+  }
+  figures.elapsed_seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  figures.input = input.path().string();
+  figures.scans = input.scans();
+  figures.left_out = input.omissions().total();
+  figures.seconds = input.seconds();
+  figures.interrupted = stop_requested();
+  if (!input.omissions().empty()) console.warn("left out: " + input.omissions().summary());
+  return figures;
+}
+
+void tell(const MapOptions& options, const MapRun& run, const RunFigures& figures,
+          Console& console) {
+  const double factor = figures.seconds / std::max(figures.elapsed_seconds, 1e-9);
+  console.say(std::to_string(run.trajectory().size()) + " of " + std::to_string(figures.scans) +
+              " scans placed (" + std::to_string(run.lost()) + " lost, " +
+              std::to_string(run.ambiguous()) + " ambiguous, " +
+              std::to_string(figures.without_pose) + " without a pose), " +
+              std::to_string(run.builder().keyframes().size()) + " keyframes, " +
+              std::to_string(run.builder().map().occupied.size()) + " voxels, hash " +
+              hash_text(run.builder().map().occupied));
+  console.say(fixed(figures.seconds, 1) + " s of data in " + fixed(figures.elapsed_seconds, 1) +
+              " s, " + fixed(factor, 1) + " times real time");
+  console.say((options.folder / "map.png").string());
+}
+
+int map(const MapOptions& options, Console& console) {
+  DeskSettings settings = read_settings(options.config);
+  if (options.octomap_resolution_m > 0.0)
+    settings.octomap.resolution_m = options.octomap_resolution_m;
+  std::optional<tbb::global_control> limit;
+  if (options.threads > 0) {
+    limit.emplace(tbb::global_control::max_allowed_parallelism,
+                  static_cast<std::size_t>(options.threads));
+  }
+
+  ScanInput input(options.input, console);
+  MapFiles files(options.folder);
+  MapRun run(settings.localiser, settings.mapper);
+  const RunFigures figures = make_map(options, input, run, console);
+  files.write_map(run);
+  const bool has_octomap = files.write_octomap(run.builder(), settings.octomap, console);
+  files.write_summary(run, figures);
+  tell(options, run, figures, console);
+  if (figures.interrupted) console.warn("interrupted: the map ends there");
+  if (!has_octomap) console.warn("interrupted: there is no map.bt");
+  return has_octomap ? 0 : kInterrupted;
+}
+
+void add_options(CLI::App& command, MapOptions& options) {
+  command
+      .add_option("INPUT", options.input, "LCM log with CLOUD (and ODOMETRY), or folder of scans")
+      ->required();
+  command.add_option("-o,--output", options.folder, "map folder; its old map is replaced")
+      ->required();
+  command.add_option("--use-poses", options.poses,
+                     "table of poses (poses.csv) to put the scans at, instead of localising them");
+  command.add_option("--config", options.config, "the robot's settings (services/robot.toml)");
+  command
+      .add_option("--octomap-resolution", options.octomap_resolution_m,
+                  "edge of map.bt's voxels in metres; default 0.1")
+      ->check(CLI::Range(0.01, 10.0));
+  command.add_option("--threads", options.threads, "most threads; the map does not depend on it")
+      ->check(CLI::Range(1, 1024));
+}
+
+}  // namespace
+
+void add_map(CLI::App& program, Command& chosen) {
+  CLI::App* command = program.add_subcommand(
+      "map", "Turns recorded scans into a map: the same input gives the same map, bit for bit.");
+  const auto options = std::make_shared<MapOptions>();
+  add_options(*command, *options);
+  command->footer(
+      "Writes trajectory.tum, map.ply, map.png, map.bt, keyframes.voxlist, summary.json.\n"
+      "Examples:\n"
+      "  voxlist map hall.lcmlog -o hall_map\n"
+      "  voxlist map hall -o hall_map --use-poses hall/poses.csv --octomap-resolution 0.2");
+  command->callback([options, &chosen] {
+    chosen = [options](Console& console) { return map(*options, console); };
+  });
+}
+
+}  // namespace voxlist::desk

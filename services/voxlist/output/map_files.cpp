@@ -1,0 +1,97 @@
+#include "services/voxlist/output/map_files.h"
+
+#include <cstdio>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "services/voxlist/output/progress.h"
+#include "services/voxlist/output/stop.h"
+#include "voxlist/io/files/file.h"
+#include "voxlist/mapping/map_store.h"
+#include "voxlist/mapping/map_views.h"
+
+namespace voxlist::desk {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path made(fs::path folder) {
+  std::error_code failure;
+  fs::create_directories(folder, failure);
+  if (!fs::is_directory(folder, failure)) {
+    throw io::FileError(folder, "cannot be made a folder, check the name and its permissions");
+  }
+  return folder;
+}
+
+// By content: the same map has the same id. Positive, and never 0.
+std::int64_t map_id(const VoxelMap& map) { return static_cast<std::int64_t>(map.hash() >> 1 | 1); }
+
+}  // namespace
+
+MapFiles::MapFiles(fs::path folder)
+    : folder_(made(std::move(folder))), summary_(folder_ / "summary.json") {}
+
+void MapFiles::write_map(const MapRun& run) const {
+  const VoxelMap& map = run.builder().map().occupied;
+  mapping::write_map_views(folder_, map, run.trajectory());
+  const mapping::MapStore stored(folder_, map_id(map), run.builder().keyframes());
+}
+
+bool MapFiles::write_octomap(const mapping::MapBuilder& builder,
+                             const planning::OctomapConfig& config, Console& console) const {
+  planning::OctomapBuilder octomap(config);
+  Progress progress(console, "making the OctoMap");
+  const auto& keyframes = builder.keyframes();
+  for (std::size_t i = 0; i < keyframes.size() && !stop_requested(); ++i) {
+    octomap.insert(keyframes[i].T_map_base, keyframes[i].cloud);
+    progress.show(static_cast<double>(i + 1) / static_cast<double>(keyframes.size()));
+  }
+  const fs::path file = folder_ / "map.bt";
+  std::error_code ignored;
+  if (stop_requested()) {
+    fs::remove(file, ignored);
+    return false;
+  }
+  octomap.write_bt(file);
+  return true;
+}
+
+void MapFiles::write_summary(const MapRun& run, const RunFigures& figures) {
+  const VoxelMap& map = run.builder().map().occupied;
+  const double factor =
+      figures.elapsed_seconds > 0.0 ? figures.seconds / figures.elapsed_seconds : 0.0;
+  nlohmann::ordered_json json = {
+      {"input", figures.input},
+      {"version", VOXLIST_VERSION},
+      {"scans", figures.scans},
+      {"placed", run.trajectory().size()},
+      {"lost", run.lost()},
+      {"ambiguous", run.ambiguous()},
+      {"without_pose", figures.without_pose},
+      {"left_out", figures.left_out},
+      {"keyframes", run.builder().keyframes().size()},
+      {"seconds", figures.seconds},
+      {"elapsed_seconds", figures.elapsed_seconds},
+      {"real_time_factor", factor},
+      {"map_hash", hash_text(map)},
+      {"voxels", map.size()},
+      {"resolution_m", map.resolution_m()},
+      {"interrupted", figures.interrupted},
+  };
+  const std::string text = json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
+  std::ofstream file(summary_.path());
+  file << text << '\n';
+  file.close();
+  if (!file) throw io::FileError(folder_ / "summary.json", "cannot be written, check free space");
+  summary_.publish();
+}
+
+std::string hash_text(const VoxelMap& map) {
+  char text[17];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(map.hash()));
+  return text;
+}
+
+}  // namespace voxlist::desk

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "services/voxlist/recording/scan_input.h"
+#include "voxlist/mapping/map_builder.h"
+#include "voxlist/matching/localisation/localiser.h"
+
+namespace voxlist::desk {
+
+/// Localiser and mapper in one: places scans one after the other and grows the map from them.
+/// Equal scans give an equal map.
+class MapRun {
+ public:
+  MapRun(const matching::LocaliserConfig& localiser, const mapping::MapBuilderConfig& mapper)
+      : builder_(mapper), localiser_(builder_.map(), localiser) {}
+
+  /// Finds the scan's pose, and adds the scan to the map if it is sure and the robot has moved.
+  void localise(Scan scan);
+
+  /// Adds the scan to the map at a pose that is known.
+  void place(Scan scan, const Pose3& T_map_base);
+
+  const mapping::MapBuilder& builder() const { return builder_; }
+
+  /// T_map_base of every scan that was placed.
+  const std::vector<StampedPose3>& trajectory() const { return trajectory_; }
+
+  /// Scans that were not placed.
+  std::int64_t lost() const { return lost_; }
+  std::int64_t ambiguous() const { return ambiguous_; }
+
+ private:
+  mapping::MapBuilder builder_;
+  matching::Localiser localiser_;
+  std::vector<StampedPose3> trajectory_;
+  std::int64_t lost_ = 0, ambiguous_ = 0;
+};
+
+}  // namespace voxlist::desk

@@ -1,0 +1,106 @@
+#include <algorithm>
+#include <cstdlib>
+#include <map>
+
+#include "services/voxlist/recording/recording.h"
+#include "voxlist/bus/event_log.h"
+#include "voxlist/io/files/file.h"
+
+namespace voxlist::desk {
+namespace {
+
+// How far a pose's time may be from its scan's: what rounding to hundredths of a second costs.
+constexpr std::int64_t kSameTime_us = 10'000;
+
+RowOfScan match_times(const io::PoseTable& poses) {
+  std::map<std::int64_t, std::size_t> rows;
+  for (std::size_t row = 0; row < poses.rows.size(); ++row) {
+    rows.emplace(poses.rows[row].utime_us, row);
+  }
+  return [rows](std::int64_t, std::int64_t utime_us) -> std::optional<std::size_t> {
+    const auto after = rows.lower_bound(utime_us);
+    const auto is_same = [&](auto at) {
+      return at != rows.end() && std::abs(at->first - utime_us) <= kSameTime_us;
+    };
+    const bool has_before = after != rows.begin() && is_same(std::prev(after));
+    const bool use_before = has_before && (!is_same(after) || utime_us - std::prev(after)->first <=
+                                                                  after->first - utime_us);
+    if (use_before) return std::prev(after)->second;
+    return is_same(after) ? std::optional(after->second) : std::nullopt;
+  };
+}
+
+RowOfScan match_numbers(const io::PoseTable& poses) {
+  std::map<std::int64_t, std::size_t> rows;
+  for (std::size_t row = 0; row < poses.rows.size(); ++row) rows.emplace(poses.rows[row].scan, row);
+  return [rows](std::int64_t number, std::int64_t) {
+    const auto found = rows.find(number);
+    return found == rows.end() ? std::nullopt : std::optional(found->second);
+  };
+}
+
+class LogRecording : public Recording {
+ public:
+  LogRecording(const std::filesystem::path& path, Omissions& omissions)
+      : path_(path), omissions_(omissions), log_(path.string()) {
+    if (!bus::EventLogReader(path.string()).next()) {
+      throw io::FileError(path, "is no LCM log, give one or a folder of scans");
+    }
+  }
+
+  std::optional<Record> next() override {
+    while (auto event = log_.next()) {
+      tell_damage();
+      if (auto record = read(*event)) return record;
+    }
+    tell_damage();
+    return std::nullopt;
+  }
+
+  double progress() const override {
+    return static_cast<double>(log_.position_bytes()) / static_cast<double>(log_.size_bytes());
+  }
+
+  RowOfScan match(const io::PoseTable& poses) const override {
+    return poses.has_times ? match_times(poses) : match_numbers(poses);
+  }
+
+ private:
+  std::optional<Record> read(const bus::Event& event) {
+    if (event.channel == bus::kOdometry.name) return decoded(event, OdometryRecord{});
+    if (event.channel == bus::kTruth.name) return decoded(event, TruthRecord{});
+    if (event.channel == bus::kCloud.name) return decoded(event, CloudRecord{clouds_++, {}});
+    return std::nullopt;
+  }
+
+  template <class R>
+  std::optional<Record> decoded(const bus::Event& event, R record) {
+    const bus::Fault fault = bus::decode(event.bytes, record.message);
+    if (fault == bus::Fault::kNone) return record;
+    omissions_.add(event.channel + "/" + bus::fault_name(fault),
+                   path_.string() + ": " + event.channel + " in event " +
+                       std::to_string(event.number) + " is " + bus::fault_name(fault));
+    return std::nullopt;
+  }
+
+  void tell_damage() {
+    for (; damage_told_ < log_.damaged_events(); ++damage_told_) {
+      omissions_.add("damaged events", path_.string() + ": damage before byte " +
+                                           std::to_string(log_.position_bytes()));
+    }
+  }
+
+  const std::filesystem::path path_;
+  Omissions& omissions_;
+  bus::EventLogReader log_;
+  std::int64_t clouds_ = 0, damage_told_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<Recording> open_log_recording(const std::filesystem::path& log,
+                                              Omissions& omissions) {
+  return std::make_unique<LogRecording>(log, omissions);
+}
+
+}  // namespace voxlist::desk

@@ -1,0 +1,30 @@
+#include "services/voxlist/recording/omissions.h"
+
+namespace voxlist::desk {
+namespace {
+
+constexpr std::int64_t kToldOfEach = 3;
+
+}  // namespace
+
+void Omissions::add(const std::string& reason, const std::string& detail) {
+  const std::int64_t count = ++counts_[reason];
+  if (count <= kToldOfEach) console_.warn("left out: " + detail);
+  if (count == kToldOfEach) console_.warn("more like this (" + reason + ") are only counted");
+}
+
+std::int64_t Omissions::total() const {
+  std::int64_t sum = 0;
+  for (const auto& [reason, count] : counts_) sum += count;
+  return sum;
+}
+
+std::string Omissions::summary() const {
+  std::string text;
+  for (const auto& [reason, count] : counts_) {
+    text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + reason;
+  }
+  return text;
+}
+
+}  // namespace voxlist::desk

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <variant>
+#include <voxlist/pointcloud_t.hpp>
+#include <voxlist/pose_t.hpp>
+
+#include "services/voxlist/recording/omissions.h"
+#include "voxlist/io/poses/pose_file.h"
+
+namespace voxlist::desk {
+
+/// A scan as it is sent, and its number in the recording, from 0: those that cannot be read count.
+struct CloudRecord {
+  std::int64_t number = 0;
+  pointcloud_t message;
+};
+
+struct OdometryRecord {
+  pose_t message;
+};
+
+struct TruthRecord {
+  pose_t message;
+};
+
+using Record = std::variant<CloudRecord, OdometryRecord, TruthRecord>;
+
+/// The row of a pose table that belongs to a scan, by the scan's number and time.
+using RowOfScan =
+    std::function<std::optional<std::size_t>(std::int64_t number, std::int64_t utime_us)>;
+
+/// Recorded scans, odometry and truth as messages in the order of time. A folder of scans gives the
+/// very messages that its log holds, so that both make the same map.
+class Recording {
+ public:
+  virtual ~Recording() = default;
+
+  /// The next message; nothing at the end. What cannot be read is left out.
+  virtual std::optional<Record> next() = 0;
+
+  /// How far it has come, 0..1.
+  virtual double progress() const = 0;
+
+  /// How the table's rows are found. `poses` must outlive the answer.
+  virtual RowOfScan match(const io::PoseTable& poses) const = 0;
+};
+
+/// Opens a folder of scans (scan_folder.h) or an LCM log. Throws FileError when it is neither.
+/// `omissions` must outlive the recording.
+std::unique_ptr<Recording> open_recording(const std::filesystem::path& path, Omissions& omissions);
+
+/// The two kinds.
+std::unique_ptr<Recording> open_folder_recording(const std::filesystem::path& folder,
+                                                 Omissions& omissions);
+std::unique_ptr<Recording> open_log_recording(const std::filesystem::path& log,
+                                              Omissions& omissions);
+
+}  // namespace voxlist::desk

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "services/voxlist/recording/recording.h"
+#include "voxlist/geometry/cloud.h"
+#include "voxlist/geometry/odometry_buffer.h"
+
+namespace voxlist::desk {
+
+/// A scan with what was known when it came.
+struct Scan {
+  /// In the folder or log, from 0.
+  std::int64_t number = 0;
+  /// In base.
+  Cloud cloud;
+  /// Odometry's pose at the scan's time, if there is odometry.
+  std::optional<Pose2> T_odom_base;
+};
+
+/// The scans of a folder or a log, one by one, as the services get them over the bus.
+class ScanInput {
+ public:
+  /// Throws FileError when the path is neither a folder of scans nor a log.
+  ScanInput(std::filesystem::path path, Console& console);
+
+  /// The next scan; nothing at the end, or after Ctrl-C. What cannot be read is left out. Throws
+  /// FileError when there was not one scan.
+  std::optional<Scan> next();
+
+  /// How far it has come, 0..1.
+  double progress() const { return recording_->progress(); }
+
+  /// How the rows of a pose table are found, which must outlive the answer.
+  RowOfScan match(const io::PoseTable& poses) const { return recording_->match(poses); }
+
+  const std::filesystem::path& path() const { return path_; }
+  const Omissions& omissions() const { return omissions_; }
+
+  /// Scans read so far, and the time from the first to the last.
+  std::int64_t scans() const { return scans_; }
+  double seconds() const { return static_cast<double>(last_us_ - first_us_) * 1e-6; }
+
+ private:
+  std::optional<Scan> take(CloudRecord& record);
+  std::optional<Scan> take(const OdometryRecord& record);
+  std::optional<Scan> take(const TruthRecord&) { return std::nullopt; }
+
+  const std::filesystem::path path_;
+  Omissions omissions_;
+  const std::unique_ptr<Recording> recording_;
+  OdometryBuffer odometry_;
+  std::int64_t scans_ = 0;
+  std::int64_t first_us_ = 0, last_us_ = 0;
+};
+
+}  // namespace voxlist::desk

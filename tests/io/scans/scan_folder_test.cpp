@@ -1,0 +1,134 @@
+#include "voxlist/io/scans/scan_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "tests/io/scans/scan_files.h"
+#include "tests/temporary_folder.h"
+#include "voxlist/io/clouds/cloud_file.h"
+#include "voxlist/io/files/natural_order.h"
+
+namespace voxlist::io {
+namespace {
+
+using test::TemporaryFolder;
+
+void put_scan(const TemporaryFolder& folder, const std::string& name, float x) {
+  Cloud cloud;
+  cloud.points = {{x, 0.0F, 0.0F}};
+  write_ply(folder / name, cloud);
+}
+
+std::string error_of(const std::filesystem::path& path) {
+  try {
+    ScanFolder folder(path);
+  } catch (const FileError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(NaturalOrder, SortsNumbersInNamesAsNumbers) {
+  EXPECT_TRUE(natural_less("scan_9", "scan_10"));
+  EXPECT_FALSE(natural_less("scan_10", "scan_9"));
+  EXPECT_TRUE(natural_less("scan_009", "scan_10"));
+  EXPECT_TRUE(natural_less("a2b3", "a2b12"));
+  EXPECT_TRUE(natural_less("a", "a1"));
+  EXPECT_NE(natural_less("a01", "a1"), natural_less("a1", "a01"));
+  EXPECT_FALSE(natural_less("a1", "a1"));
+}
+
+TEST(ScanFolder, ReadsScansInNaturalOrderOnceASecond) {
+  const TemporaryFolder folder;
+  put_scan(folder, "scan_10.ply", 10.0F);
+  put_scan(folder, "scan_9.ply", 9.0F);
+  put_scan(folder, "map.ply", 0.0F);
+  folder.write("scan_11.pcd", test::scan_samples()[4].bytes);
+  const ScanFolder scans(folder.path());
+  ASSERT_EQ(scans.size(), 3U);
+  EXPECT_EQ(scans.read(0).points[0].x(), 9.0F);
+  EXPECT_EQ(scans.read(1).points[0].x(), 10.0F);
+  EXPECT_EQ(scans.read(2).points.size(), 20U);
+  EXPECT_EQ(scans.read(2).utime_us, 2'000'000);
+  EXPECT_FALSE(scans.truth(0));
+  EXPECT_FALSE(scans.odometry());
+}
+
+TEST(ScanFolder, TakesOtherNamesWhenNoneIsScan) {
+  const TemporaryFolder folder;
+  put_scan(folder, "b.ply", 2.0F);
+  put_scan(folder, "a.PLY", 1.0F);
+  const ScanFolder scans(folder.path());
+  ASSERT_EQ(scans.size(), 2U);
+  EXPECT_EQ(scans.read(0).points[0].x(), 1.0F);
+}
+
+TEST(ScanFolder, TakesTimesAndTruthByScanNumberAndFillsGaps) {
+  const TemporaryFolder folder;
+  for (int i = 0; i < 6; ++i) {
+    put_scan(folder, "scan_" + std::to_string(i) + ".ply", 0.0F);
+  }
+  folder.write("poses.csv", "index,t,x,y,yaw\n3,102,3,0,0\n1,100,1,0,0\n");
+  folder.write("odometry.csv", "t,x,y,yaw\n99,0,0,0\n");
+  const ScanFolder scans(folder.path());
+  const std::vector<std::int64_t> seconds{99, 100, 101, 102, 103, 104};
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_EQ(scans.utime_us(i), seconds[i] * 1'000'000) << i;
+  }
+  EXPECT_FALSE(scans.truth(2));
+  ASSERT_TRUE(scans.truth(3));
+  EXPECT_EQ(scans.truth(3)->translation().x(), 3.0);
+  EXPECT_EQ(scans.odometry()->rows.size(), 1U);
+}
+
+TEST(ScanFolder, MatchesPosesByFileName) {
+  const TemporaryFolder folder;
+  put_scan(folder, "scan_1.ply", 0.0F);
+  put_scan(folder, "scan_2.ply", 0.0F);
+  folder.write("poses.csv", "index,file,x,y,yaw\n7,scans/scan_2.pcd,2,0,0\n8,scan_1.ply,1,0,0\n");
+  const ScanFolder scans(folder.path());
+  EXPECT_EQ(scans.truth(0)->translation().x(), 1.0);
+  EXPECT_EQ(scans.truth(1)->translation().x(), 2.0);
+}
+
+TEST(ScanFolder, TakesNumbersInNamesWhenTheTableMeansThose) {
+  const TemporaryFolder folder;
+  put_scan(folder, "scan_100.ply", 0.0F);
+  put_scan(folder, "scan_101.ply", 0.0F);
+  folder.write("poses.csv", "index,x,y,yaw\n100,1,0,0\n101,2,0,0\n");
+  EXPECT_EQ(ScanFolder(folder.path()).truth(1)->translation().x(), 2.0);
+}
+
+TEST(ScanFolder, SaysWhatIsWrong) {
+  const TemporaryFolder folder;
+  EXPECT_NE(error_of(folder / "none").find("no folder"), std::string::npos);
+  EXPECT_NE(error_of(folder.path()).find("has no scans"), std::string::npos);
+  put_scan(folder, "scan_0.ply", 0.0F);
+  put_scan(folder, "scan_1.ply", 0.0F);
+  folder.write("poses.csv", "index,x,y,yaw\n7,0,0,0\n");
+  EXPECT_NE(error_of(folder.path()).find("matches none"), std::string::npos);
+  folder.write("poses.csv", "index,t,x,y,yaw\n0,5,0,0,0\n1,4,0,0,0\n");
+  EXPECT_NE(error_of(folder.path()).find("puts scan_1.ply no later than scan_0.ply"),
+            std::string::npos);
+  folder.write("poses.csv", "index,x,y,yaw\n0,0,0,0\n");
+  folder.write("scan_1.pcd", "");
+  EXPECT_NE(error_of(folder.path()).find("two formats"), std::string::npos);
+}
+
+TEST(ScanFolder, ReadsTheHall) {
+  const char* given = std::getenv("VOXLIST_DATA");
+  const std::filesystem::path data = given ? given : VOXLIST_SOURCE_DIR "/../shared/data";
+  if (!std::filesystem::exists(data / "hall")) {
+    GTEST_SKIP() << "no real scans at " << data / "hall"
+                 << "; set VOXLIST_DATA to their folder";
+  }
+  const ScanFolder hall(data / "hall");
+  ASSERT_EQ(hall.size(), 89U);
+  EXPECT_EQ(hall.utime_us(0), 1630577758569000);
+  EXPECT_TRUE(hall.truth(88));
+  EXPECT_EQ(hall.read(88).points.size(), 12000U);
+}
+
+}  // namespace
+}  // namespace voxlist::io

@@ -1,0 +1,214 @@
+#include "voxlist/matching/localisation/localiser.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <variant>
+
+#include "voxlist/simulation/run/simulated_run.h"
+
+namespace voxlist::matching {
+namespace {
+
+// What a robot saw in the building of a seed, with the truth and the odometry of each cloud.
+struct Drive {
+  std::vector<Cloud> clouds;
+  std::vector<Pose2> truth, odometry;
+};
+
+Drive drive(int seed, double duration_s) {
+  simulation::SimulationConfig config;
+  config.seed = seed;
+  config.building.seed = seed;
+  config.duration_s = duration_s;
+  simulation::SimulatedRun run(config);
+  Drive drive;
+  Pose2 truth, odometry;
+  while (const auto event = run.next()) {
+    if (const auto* t = std::get_if<simulation::SimulatedTruth>(&*event)) truth = t->pose.pose;
+    if (const auto* o = std::get_if<simulation::SimulatedOdometry>(&*event))
+      odometry = o->measured.pose;
+    if (const auto* cloud = std::get_if<Cloud>(&*event)) {
+      drive.clouds.push_back(*cloud);
+      drive.truth.push_back(truth);
+      drive.odometry.push_back(odometry);
+    }
+  }
+  return drive;
+}
+
+void add(OccupancyMap& map, const Cloud& cloud, const Pose2& pose) {
+  add_scan(cloud, to_pose3(pose), 100.0, map);
+}
+
+OccupancyMap map_at_truth(const Drive& drive) {
+  OccupancyMap map;
+  for (std::size_t i = 0; i < drive.clouds.size(); ++i) add(map, drive.clouds[i], drive.truth[i]);
+  return map;
+}
+
+TEST(Localiser, FirstCloudDefinesTheMapFrame) {
+  OccupancyMap map;
+  Localiser localiser(map);
+  const Drive run = drive(1, 1.0);
+  const auto result = localiser.localise(run.clouds[0]);
+  EXPECT_TRUE(result.tracking());
+  EXPECT_EQ(result.modes.at(0).T_map_base, Pose2{});
+  EXPECT_EQ(localiser.localise(Cloud{}).state, LocalisationState::kLost);
+}
+
+TEST(Localiser, ClaimsNothingFromAHandfulOfPoints) {
+  const Drive run = drive(1, 2.0);
+  Cloud few = run.clouds[1];
+  few.points.resize(40);
+  few.origins.clear();
+  OccupancyMap empty;
+  EXPECT_FALSE(Localiser(empty).localise(few).tracking());
+  const OccupancyMap map = map_at_truth(run);
+  Localiser localiser(map);
+  EXPECT_FALSE(localiser.localise(few).tracking());
+}
+
+// Maps scan by scan, and returns the largest error of a pose.
+double largest_mapping_error_m(const Drive& run, bool with_odometry) {
+  OccupancyMap map;
+  Localiser localiser(map);
+  double worst = 0.0;
+  for (std::size_t i = 0; i < run.clouds.size(); ++i) {
+    const auto result = localiser.localise(
+        run.clouds[i], with_odometry ? std::optional(run.odometry[i]) : std::nullopt);
+    if (!result.tracking()) return 1e9;
+    const Pose2& pose = result.modes.front().T_map_base;
+    worst = std::max(worst, distance_m(pose, run.truth[0].inverse() * run.truth[i]));
+    add(map, run.clouds[i], pose);
+    localiser.map_changed();
+  }
+  return worst;
+}
+
+TEST(Localiser, TracksWhileItsMapGrows) {
+  const Drive run = drive(1, 25.0);
+  EXPECT_LT(largest_mapping_error_m(run, false), 0.15);
+  EXPECT_LT(largest_mapping_error_m(run, true), 0.15);
+}
+
+TEST(Localiser, FindsScansInTheWholeMapOrSaysThatItIsNotSure) {
+  const Drive run = drive(2, 40.0);
+  const OccupancyMap map = map_at_truth(run);
+  Localiser localiser(map);
+  int sure = 0;
+  for (std::size_t i = 1; i < run.clouds.size(); i += 4) {
+    const auto result = localiser.locate(run.clouds[i]);
+    EXPECT_TRUE(result.global);
+    if (!result.tracking()) continue;
+    ++sure;
+    EXPECT_LT(distance_m(result.modes.front().T_map_base, run.truth[i]), 0.1) << "scan " << i;
+    EXPECT_GE(result.confidence, 0.9);
+  }
+  EXPECT_GE(sure, 4);
+}
+
+TEST(Localiser, IsNotSureOfAScanOfAnotherBuilding) {
+  const OccupancyMap map = map_at_truth(drive(3, 40.0));
+  const Drive other = drive(1003, 20.0);
+  Localiser localiser(map);
+  for (std::size_t i = 0; i < other.clouds.size(); i += 5) {
+    EXPECT_FALSE(localiser.locate(other.clouds[i]).tracking()) << "scan " << i;
+  }
+}
+
+TEST(Localiser, SearchesTheWholeMapAfterItHasForgotten) {
+  const Drive run = drive(4, 30.0);
+  const OccupancyMap map = map_at_truth(run);
+  Localiser localiser(map);
+  std::size_t i = 0;
+  while (!localiser.localise(run.clouds[i]).tracking()) ASSERT_LT(++i, run.clouds.size());
+  EXPECT_FALSE(localiser.localise(run.clouds[i]).global);
+  localiser.forget();
+  EXPECT_TRUE(localiser.localise(run.clouds[i]).global);
+}
+
+TEST(Localiser, NoticesThatItWasCarriedElsewhere) {
+  const Drive run = drive(6, 60.0);
+  const OccupancyMap map = map_at_truth(run);
+  int carried = 0;
+  for (std::size_t from = 0; from + 3 < run.clouds.size(); from += 10) {
+    for (std::size_t to = 0; to < run.clouds.size(); to += 20) {
+      if (distance_m(run.truth[from + 3], run.truth[to]) < 3.0) continue;
+      Localiser localiser(map);
+      Localisation result;
+      for (std::size_t i = from; i < from + 3; ++i)
+        result = localiser.localise(run.clouds[i], run.odometry[i]);
+      if (!result.tracking()) continue;
+      ++carried;
+      // The wheels have felt nothing.
+      result = localiser.localise(run.clouds[to], run.odometry[from + 2]);
+      if (result.tracking()) {
+        EXPECT_LT(distance_m(result.modes.front().T_map_base, run.truth[to]), 0.1)
+            << "from scan " << from << " to scan " << to;
+      }
+    }
+  }
+  EXPECT_GE(carried, 5);
+}
+
+TEST(Localiser, GivesEachModeItsProbability) {
+  const Drive run = drive(2, 30.0);
+  const OccupancyMap map = map_at_truth(run);
+  Localiser localiser(map);
+  const auto result = localiser.locate(run.clouds[10]);
+  double sum = 0.0, last = 1.0;
+  for (const PoseMode& mode : result.modes) {
+    EXPECT_LE(mode.probability, last);
+    sum += last = mode.probability;
+  }
+  ASSERT_FALSE(result.modes.empty());
+  EXPECT_EQ(result.confidence, result.modes.front().probability);
+  EXPECT_LT(sum, 1.0);
+}
+
+TEST(Localiser, GivesTheSameBitsForAnyNumberOfThreads) {
+  const Drive run = drive(5, 12.0);
+  const OccupancyMap map = map_at_truth(run);
+  std::vector<Localisation> results;
+  for (const std::size_t threads : {1, 2, 4}) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    Localiser localiser(map);
+    results.push_back(localiser.locate(run.clouds[6]));
+  }
+  for (const auto& result : results) {
+    ASSERT_EQ(result.modes.size(), results[0].modes.size());
+    for (std::size_t m = 0; m < result.modes.size(); ++m) {
+      EXPECT_EQ(result.modes[m].T_map_base, results[0].modes[m].T_map_base);
+    }
+    EXPECT_EQ(result.confidence, results[0].confidence);
+    EXPECT_EQ(result.poses_examined, results[0].poses_examined);
+  }
+}
+
+TEST(Localiser, RunsThePapersFilterWhenAsked) {
+  const Drive run = drive(1, 3.0);
+  OccupancyMap map;
+  add(map, run.clouds[0], Pose2{});
+  LocaliserConfig config;
+  config.matcher.engine = "particle_filter";
+  OccupancyMap empty;
+  Localiser localiser(empty, config);
+  localiser.localise(run.clouds[0]);
+  add(empty, run.clouds[0], Pose2{});
+  localiser.map_changed();
+  const auto result = localiser.localise(run.clouds[1]);
+  ASSERT_TRUE(result.tracking());
+  EXPECT_LT(distance_m(result.modes.front().T_map_base, run.truth[0].inverse() * run.truth[1]),
+            0.1);
+}
+
+TEST(Localiser, RefusesAnUnknownEngine) {
+  OccupancyMap map;
+  LocaliserConfig config;
+  config.matcher.engine = "magic";
+  EXPECT_THROW(Localiser(map, config), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace voxlist::matching

@@ -1,0 +1,84 @@
+#include "voxlist/matching/localisation/lost_search.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/matching/synthetic_room.h"
+
+namespace voxlist::matching {
+namespace {
+
+// Finds one place, however it is asked, and counts how often it is asked for rivals.
+class OnePlace : public Matcher {
+ public:
+  OnePlace(const Pose2& pose, double unseen) : unseen_(unseen) { mode_.pose = pose; }
+
+  Match match(const Cloud&, const std::optional<PoseWindow>&) override {
+    Match match;
+    match.modes.push_back(mode_);
+    match.unseen = unseen_;
+    return match;
+  }
+  Match match_rivals(const Cloud& scan) override {
+    ++asked;
+    return match(scan, std::nullopt);
+  }
+  void map_grew(const ChangedBlocks&) override {}
+
+  int asked = 0;
+
+ private:
+  MatchMode mode_;
+  const double unseen_;
+};
+
+struct Lost {
+  OccupancyMap map;
+  Cloud scan;
+  Pose2 truth{3.0, 2.0, 0.3};
+
+  // The scan has a share of points in the middle of nowhere that the map knows to be free.
+  explicit Lost(double share_elsewhere) {
+    const RoomSurfaces room(6.0, 4.0, 0, 1);
+    room.sample(0.015, [&](const Eigen::Vector3d& p) {
+      map.occupied.insert(voxel_at(p, kFinestResolution_m));
+    });
+    int i = 0;
+    room.sample(0.15, [&](const Eigen::Vector3d& p) {
+      const bool elsewhere =
+          static_cast<int>(share_elsewhere * i) != static_cast<int>(share_elsewhere * (i + 1));
+      ++i;
+      const Eigen::Vector3d at = elsewhere ? Eigen::Vector3d(p.x(), p.y() + 10.0, p.z()) : p;
+      if (elsewhere) map.passed.insert(voxel_at(at, map.passed.resolution_m()));
+      scan.points.push_back((truth.inverse() * at).cast<float>());
+    });
+  }
+
+  Localisation find(OnePlace& matcher) const {
+    return LostSearch({}, {}).add(scan, std::nullopt, matcher, EvidenceMap(map, 0.08));
+  }
+};
+
+TEST(LostSearch, IsSureOfAPlaceThatExplainsAllAndStandsAlone) {
+  const Lost lost(0.0);
+  OnePlace matcher(lost.truth, 0.88);
+  EXPECT_TRUE(lost.find(matcher).tracking());
+  EXPECT_EQ(matcher.asked, 0);
+}
+
+TEST(LostSearch, AsksForRivalsOfAPlaceThatDoesNotExplainAll) {
+  const Lost lost(0.15);
+  OnePlace matcher(lost.truth, 0.88);
+  lost.find(matcher);
+  EXPECT_EQ(matcher.asked, 1);
+}
+
+TEST(LostSearch, IsNeverSureAfterASearchThatDidNotEnd) {
+  const Lost lost(0.0);
+  OnePlace matcher(lost.truth, 1.0);
+  const Localisation found = lost.find(matcher);
+  EXPECT_EQ(matcher.asked, 0);
+  EXPECT_FALSE(found.tracking());
+}
+
+}  // namespace
+}  // namespace voxlist::matching

@@ -1,0 +1,35 @@
+#include "voxlist/matching/localisation/scan_motion.h"
+
+#include <gtest/gtest.h>
+
+#include "voxlist/simulation/building/building.h"
+#include "voxlist/simulation/scanner/ideal_sweep.h"
+
+namespace voxlist::matching {
+namespace {
+
+Cloud scan_at(int building_seed, const Pose2& pose) {
+  simulation::BuildingConfig config;
+  config.seed = building_seed;
+  const simulation::World world(simulation::make_building(config), {});
+  const simulation::Trajectory still(1.0, {pose});
+  return simulation::scan_sweep(simulation::MirrorScanner(world, still, {}, 1), still, 1.0, {}, 1);
+}
+
+const PoseWindow kWindow{{}, 1.5, 1.5, 0.5};
+
+TEST(ScanMotion, IsWhatTheRobotMovedBetweenTwoScans) {
+  const Pose2 motion{0.6, 0.1, 0.2}, start{1.0, 0.1, 0.3};
+  const auto found = scan_motion(scan_at(1, start), scan_at(1, start * motion), kWindow, {});
+  ASSERT_TRUE(found);
+  EXPECT_LT(distance_m(*found, motion), 0.05);
+  EXPECT_LT(turn_rad(*found, motion), 0.01);
+}
+
+TEST(ScanMotion, IsNothingWithoutPointsToGoBy) {
+  EXPECT_FALSE(scan_motion(Cloud{}, scan_at(1, {}), kWindow, {}));
+  EXPECT_FALSE(scan_motion(scan_at(1, {}), Cloud{}, kWindow, {}));
+}
+
+}  // namespace
+}  // namespace voxlist::matching

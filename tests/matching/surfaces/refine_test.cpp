@@ -1,0 +1,156 @@
+#include "voxlist/matching/surfaces/refine.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/matching/synthetic_room.h"
+#include "voxlist/matching/scan/match_points.h"
+
+namespace voxlist::matching {
+namespace {
+
+// A map of which nothing is known but what is occupied.
+OccupancyMap occupied(const VoxelMap& map) { return {map, VoxelMap(kPassedResolution_m)}; }
+
+// A wall across x.
+void add_wall(double x, OccupancyMap& map) {
+  for (double y = 0.0; y < 2.0; y += 0.02) {
+    for (double z = 0.0; z < 2.0; z += 0.02)
+      map.occupied.insert(voxel_at(Eigen::Vector3d(x, y, z), 0.02));
+  }
+}
+
+// Rays passed between two x.
+void add_free(double low, double high, OccupancyMap& map) {
+  for (double x = low; x < high; x += 0.02) {
+    for (double y = 0.0; y < 2.0; y += 0.08) {
+      for (double z = 0.0; z < 2.0; z += 0.08)
+        map.passed.insert(voxel_at(Eigen::Vector3d(x, y, z), kPassedResolution_m));
+    }
+  }
+}
+
+// The room's walls lie on faces of voxels, so that each stands half a voxel off in the map: 0.014 m
+// over both axes.
+TEST(Refine, FindsThePoseToHalfAVoxelOfTheMap) {
+  for (unsigned seed = 1; seed <= 5; ++seed) {
+    const auto room = synthetic_room(6.0, 5.0, {2.5, 2.0, 0.7}, 5000, seed);
+    const OccupancyMap map = occupied(room.map);
+    const SurfelMap surfels(map);
+    const Pose2 start = room.truth * Pose2{0.06, -0.05, 0.01};
+    const auto refined = refine(surfels, room.scan, start);
+    EXPECT_TRUE(refined.converged);
+    EXPECT_LT(distance_m(refined.pose, room.truth), 0.016) << "seed " << seed;
+    EXPECT_LT(turn_rad(refined.pose, room.truth), 0.002) << "seed " << seed;
+    EXPECT_GT(refined.inlier_share, 0.5);
+  }
+}
+
+TEST(Refine, SaysThatACorridorLeavesItsLongAxisOpen) {
+  OccupancyMap corridor;
+  std::vector<Eigen::Vector3f> scan;
+  for (double x = -8.0; x < 8.0; x += 0.02) {
+    for (double z = 0.0; z < 2.0; z += 0.02) {
+      for (const double y : {-1.0, 1.0}) {
+        corridor.occupied.insert(voxel_at(Eigen::Vector3d(x, y, z), 0.02));
+        if (scan.size() < 4000 && static_cast<int>(x * 50 + z * 50) % 13 == 0) {
+          scan.emplace_back(static_cast<float>(x), static_cast<float>(y), static_cast<float>(z));
+        }
+      }
+    }
+  }
+  const auto refined = refine(SurfelMap(corridor), scan, Pose2{0.05, 0.05, 0.0});
+  EXPECT_LT(std::abs(refined.pose.y_m), 0.015);
+  EXPECT_GT(refined.covariance(0, 0), 50.0 * refined.covariance(1, 1));
+}
+
+TEST(Refine, StaysAtItsStartWhereThereIsNoSurface) {
+  const std::vector<Eigen::Vector3f> scan{{1.f, 0.f, 0.f}};
+  const OccupancyMap nothing;
+  const auto refined = refine(SurfelMap(nothing), scan, Pose2{1.0, 2.0, 3.0});
+  EXPECT_EQ(distance_m(refined.pose, {1.0, 2.0, 0.0}), 0.0);
+  EXPECT_NEAR(refined.pose.yaw_rad, 3.0, 1e-12);
+  EXPECT_EQ(refined.inlier_share, 0.0);
+}
+
+TEST(SurfelMap, FitsTheWallThatAPointLiesOn) {
+  OccupancyMap map;
+  add_wall(1.01, map);
+  const SurfelMap surfels(map);
+  const Surfel* surfel = surfels.find({1.1, 1.0, 1.0}, {0.0, 1.0, 1.0});
+  ASSERT_NE(surfel, nullptr);
+  EXPECT_NEAR(std::abs(surfel->normal.x()), 1.0, 1e-9);
+  EXPECT_NEAR(surfel->mean.x(), 1.01, 1e-9);
+  EXPECT_EQ(surfels.find({3.0, 1.0, 1.0}, {0.0, 1.0, 1.0}), nullptr);
+}
+
+TEST(SurfelMap, GivesEachRayTheFaceOfAThinWallThatItCouldSee) {
+  for (const double thickness_m : {0.08, 0.1, 0.12, 0.15}) {
+    for (const double at_m : {0.97, 1.05, 1.1, 1.19, 1.27}) {
+      OccupancyMap map;
+      add_wall(at_m, map);
+      add_wall(at_m + thickness_m, map);
+      add_free(0.3, at_m - 0.02, map);
+      add_free(at_m + thickness_m + 0.02, 2.0, map);
+      const SurfelMap surfels(map);
+      const double faces_m[] = {at_m, at_m + thickness_m}, origins_m[] = {0.0, 3.0};
+      for (int i = 0; i < 2; ++i) {
+        const Surfel* surfel = surfels.find({faces_m[i], 1.0, 1.0}, {origins_m[i], 1.0, 1.0});
+        if (!surfel) continue;  // the face is in another cube than this point
+        EXPECT_NEAR(surfel->mean.x(), faces_m[i], 0.0101) << thickness_m << " at " << at_m;
+        EXPECT_EQ(surfel->two_sided, false);
+      }
+    }
+  }
+}
+
+TEST(SurfelMap, HidesAWallFromRaysThatWouldHaveToComeThroughIt) {
+  OccupancyMap map;
+  add_wall(1.01, map);
+  add_free(0.3, 1.0, map);
+  const SurfelMap surfels(map);
+  ASSERT_NE(surfels.find({1.01, 1.0, 1.0}, {0.0, 1.0, 1.0}), nullptr);
+  EXPECT_LT(surfels.find({1.01, 1.0, 1.0}, {0.0, 1.0, 1.0})->normal.x(), -0.99);
+  EXPECT_EQ(surfels.find({1.01, 1.0, 1.0}, {2.0, 1.0, 1.0}), nullptr);
+}
+
+TEST(SurfelMap, KnowsWhatAChangeBrought) {
+  OccupancyMap map;
+  SurfelMap surfels(map);
+  const Eigen::Vector3d point(1.01, 1.0, 1.0), origin(0.0, 1.0, 1.0);
+  EXPECT_EQ(surfels.find(point, origin), nullptr);
+  add_wall(1.01, map);
+  surfels.map_changed();
+  EXPECT_NE(surfels.find(point, origin), nullptr);
+}
+
+TEST(MatchPoints, LeaveOutTheFloorAndKeepTheWalls) {
+  std::vector<Eigen::Vector3f> points;
+  for (float x = -4.f; x < 4.f; x += 0.05f) {
+    for (float y = -4.f; y < 4.f; y += 0.05f) points.emplace_back(x, y, 0.01f);
+    for (float z = 0.1f; z < 2.f; z += 0.05f) points.emplace_back(x, 4.f, z);
+  }
+  const auto chosen = choose_match_points(points, {});
+  const auto on_floor = std::count_if(chosen.points.begin(), chosen.points.end(),
+                                      [](auto& p) { return p.z() < 0.05f; });
+  EXPECT_LT(on_floor, static_cast<std::ptrdiff_t>(chosen.points.size() / 10));
+  EXPECT_GT(chosen.points.size(), 200u);
+}
+
+TEST(MatchPoints, DoNotDependOnTheOrderOfTheScan) {
+  auto points = synthetic_room(6.0, 5.0, {2.5, 2.0, 0.7}, 5000, 1).scan;
+  const auto chosen = choose_match_points(points, {.max_points = 500});
+  std::reverse(points.begin(), points.end());
+  const auto again = choose_match_points(points, {.max_points = 500});
+  EXPECT_EQ(chosen.points, again.points);
+  EXPECT_LE(chosen.points.size(), 500u);
+  EXPECT_EQ(chosen.radius_m, again.radius_m);
+}
+
+TEST(MatchPoints, OfNothingAreNone) {
+  EXPECT_TRUE(choose_match_points({}, {}).points.empty());
+  const std::vector<Eigen::Vector3f> far{{1000.f, 0.f, 0.f}};
+  EXPECT_TRUE(choose_match_points(far, {}).points.empty());
+}
+
+}  // namespace
+}  // namespace voxlist::matching
