@@ -36,7 +36,7 @@ localisation_t to_message(const matching::Localisation& result) {
   message.significance_log10 = result.significance_log10;
   message.confidence = result.confidence;
   message.certified = result.certified;
-  message.global = result.global;
+  message.searched_whole_map = result.searched_whole_map;
   message.poses_examined = result.poses_examined;
   return message;
 }

@@ -83,7 +83,7 @@ class Filler {
   void fill(localisation_t& m) {
     fill_all(m.utime, m.map_id, m.map_version, m.state, m.significance_log10, m.confidence);
     list(m.n_modes, m.modes);
-    fill_all(m.certified, m.global, m.poses_examined, m.elapsed_us);
+    fill_all(m.certified, m.searched_whole_map, m.poses_examined, m.elapsed_us);
   }
 
   void fill(map_octree_t& m) {

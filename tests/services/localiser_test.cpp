@@ -169,7 +169,7 @@ TEST(LocaliserService, ForgetsWhereItWasWhenTheMapIsAnother) {
   scene.run(kStart_us + 1'000'000);
   ASSERT_EQ(scene.localisations.size(), 2u);
   EXPECT_EQ(scene.localisations[1].map_id, 8);
-  EXPECT_TRUE(scene.localisations[1].global);
+  EXPECT_TRUE(scene.localisations[1].searched_whole_map);
 }
 
 }  // namespace

@@ -54,7 +54,7 @@ struct Localisation {
   /// No pose of the searched lattice overlaps more than the best one found.
   bool certified = false;
   /// The whole map was searched, not a window around a prediction.
-  bool global = false;
+  bool searched_whole_map = false;
   std::int64_t poses_examined = 0;
 
   bool tracking() const { return state == LocalisationState::kTracking; }

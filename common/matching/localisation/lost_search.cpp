@@ -76,7 +76,7 @@ Localisation search(const Cloud& cloud, Matcher& matcher, const EvidenceMap& evi
     found.unseen = std::min(found.unseen, unseen);
     weigh(evidence, rays, found.modes);
   }
-  found.global = true;
+  found.searched_whole_map = true;
   return found;
 }
 

@@ -99,7 +99,7 @@ TEST(Localiser, FindsScansInTheWholeMapOrSaysThatItIsNotSure) {
   int sure = 0;
   for (std::size_t i = 1; i < run.clouds.size(); i += 4) {
     const auto result = localiser.locate(run.clouds[i]);
-    EXPECT_TRUE(result.global);
+    EXPECT_TRUE(result.searched_whole_map);
     if (!result.tracking()) continue;
     ++sure;
     EXPECT_LT(distance_m(result.modes.front().T_map_base, run.truth[i]), 0.1) << "scan " << i;
@@ -123,9 +123,9 @@ TEST(Localiser, SearchesTheWholeMapAfterItHasForgotten) {
   Localiser localiser(map);
   std::size_t i = 0;
   while (!localiser.localise(run.clouds[i]).tracking()) ASSERT_LT(++i, run.clouds.size());
-  EXPECT_FALSE(localiser.localise(run.clouds[i]).global);
+  EXPECT_FALSE(localiser.localise(run.clouds[i]).searched_whole_map);
   localiser.forget();
-  EXPECT_TRUE(localiser.localise(run.clouds[i]).global);
+  EXPECT_TRUE(localiser.localise(run.clouds[i]).searched_whole_map);
 }
 
 TEST(Localiser, NoticesThatItWasCarriedElsewhere) {
