@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "voxlist/io/files/folder_events.h"
+#include "voxlist/io/scans/folder_events.h"
 #include "voxlist/io/scans/scan_folder.h"
 
 namespace voxlist::bus {

@@ -6,8 +6,8 @@
 #include <memory>
 
 #include "services/voxlist/commands/command.h"
+#include "services/voxlist/commands/map_files.h"
 #include "services/voxlist/commands/settings.h"
-#include "services/voxlist/output/map_files.h"
 #include "services/voxlist/output/progress.h"
 #include "services/voxlist/output/stop.h"
 #include "services/voxlist/output/text.h"

@@ -1,7 +1,7 @@
 #include "services/voxlist/recording/recording.h"
 #include "voxlist/bus/convert.h"
 #include "voxlist/io/files/file.h"
-#include "voxlist/io/files/folder_events.h"
+#include "voxlist/io/scans/folder_events.h"
 
 namespace voxlist::desk {
 namespace {

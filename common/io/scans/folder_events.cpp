@@ -1,4 +1,4 @@
-#include "voxlist/io/files/folder_events.h"
+#include "voxlist/io/scans/folder_events.h"
 
 #include <algorithm>
 

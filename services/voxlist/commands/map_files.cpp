@@ -1,4 +1,4 @@
-#include "services/voxlist/output/map_files.h"
+#include "services/voxlist/commands/map_files.h"
 
 #include <cstdio>
 #include <fstream>

@@ -1,4 +1,4 @@
-#include "services/voxlist/output/map_run.h"
+#include "services/voxlist/commands/map_run.h"
 
 #include <utility>
 

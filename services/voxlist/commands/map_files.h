@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <string>
 
+#include "services/voxlist/commands/map_run.h"
 #include "services/voxlist/output/console.h"
 #include "services/voxlist/output/fresh_file.h"
-#include "services/voxlist/output/map_run.h"
 #include "voxlist/planning/octomap.h"
 
 namespace voxlist::desk {
