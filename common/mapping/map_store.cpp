@@ -3,8 +3,8 @@
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <zlib.h>
 
-#include <array>
 #include <bit>
 #include <cerrno>
 #include <cstring>
@@ -15,8 +15,9 @@
 #include "voxlist/io/files/file.h"
 
 // The file: an 8-byte magic, the map id (int64), then records. A record: payload bytes (uint32),
-// CRC-32 of the payload (uint32), payload. The payload: utime (int64), pose (12 doubles, row-major
-// 3 x 4), points and origins (uint32 each), then their coordinates (float32). All little-endian.
+// the payload's CRC-32 as zlib computes it (uint32), payload. The payload: utime (int64), pose (12
+// doubles, row-major 3 x 4), points and origins (uint32 each), then their coordinates (float32).
+// All little-endian.
 
 static_assert(std::endian::native == std::endian::little,
               "the keyframe file is written as memory lies");
@@ -31,20 +32,9 @@ constexpr std::size_t kPayloadHeader =
     sizeof(std::int64_t) + 12 * sizeof(double) + 2 * sizeof(std::uint32_t);
 constexpr std::size_t kPoint = 3 * sizeof(float);
 
-// CRC-32 as in zlib and Ethernet (reflected 0x04C11DB7).
-std::uint32_t crc32(std::string_view bytes) {
-  static const auto table = [] {
-    std::array<std::uint32_t, 256> entries{};
-    for (std::uint32_t i = 0; i < 256; ++i) {
-      std::uint32_t value = i;
-      for (int bit = 0; bit < 8; ++bit) value = (value >> 1) ^ ((value & 1) ? 0xEDB88320u : 0u);
-      entries[i] = value;
-    }
-    return entries;
-  }();
-  std::uint32_t crc = 0xFFFFFFFFu;
-  for (const char c : bytes) crc = (crc >> 8) ^ table[(crc ^ static_cast<unsigned char>(c)) & 0xFF];
-  return ~crc;
+std::uint32_t checksum_of(std::string_view bytes) {
+  return static_cast<std::uint32_t>(
+      crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
 }
 
 template <class T>
@@ -85,7 +75,7 @@ std::string encode(const Keyframe& keyframe) {
   put(payload, keyframe.cloud.origins);
   std::string record;
   put(record, static_cast<std::uint32_t>(payload.size()));
-  put(record, crc32(payload));
+  put(record, checksum_of(payload));
   return record + payload;
 }
 
@@ -113,7 +103,7 @@ std::optional<Keyframe> take_record(std::string_view& bytes) {
   const auto checksum = bytes.size() < sizeof(std::uint32_t) ? 0 : take<std::uint32_t>(bytes);
   const std::string_view payload = bytes.substr(0, size);
   bytes.remove_prefix(payload.size());
-  if (payload.size() < size || crc32(payload) != checksum) return std::nullopt;
+  if (payload.size() < size || checksum_of(payload) != checksum) return std::nullopt;
   return decode(payload);
 }
 

@@ -59,6 +59,13 @@ TEST(MapStore, GoesOnWhereItStopped) {
   expect_keyframes(load_map(map), {0, 1, 2});
 }
 
+TEST(MapStore, ProtectsRecordsByTheChecksumThatFilesHaveToday) {
+  const TemporaryFolder folder;
+  const std::string bytes = io::read_file(store(folder, 1) / kKeyframeFile);
+  ASSERT_EQ(bytes.size(), 16U + 8U + 112U + 10U * 12U);
+  EXPECT_EQ(bytes.substr(20, 4), "\x95($*");
+}
+
 TEST(MapStore, LosesAtMostTheTornRecord) {
   const TemporaryFolder folder;
   const auto map = store(folder, 3);

@@ -1,11 +1,12 @@
 #include "voxlist/io/clouds/pcd.h"
 
+#include <lzf.h>
+
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "voxlist/io/clouds/lzf.h"
 #include "voxlist/io/clouds/point_rows.h"
 #include "voxlist/io/files/cursor.h"
 
@@ -174,10 +175,29 @@ Cloud read_columns(const Header& header, std::string_view data) {
   return rows.take();
 }
 
+// Unpacks LZF into exactly `size` bytes. Before that many are allocated, `packed` must be long
+// enough: at best, LZF repeats 264 bytes for each 3 of its own.
+std::string unpack(std::string_view packed, std::uint32_t size) {
+  constexpr std::uint32_t kMaxRatio = 264 / 3;
+  std::string columns;
+  if (size == 0 && packed.empty()) {
+    return columns;
+  }
+  if (!packed.empty() && size / kMaxRatio <= packed.size()) {
+    columns.resize(size);
+    const auto packed_size = static_cast<std::uint32_t>(packed.size());
+    const auto unpacked = lzf_decompress(packed.data(), packed_size, columns.data(), size);
+    if (unpacked > 0 && unpacked == size) {
+      return columns;
+    }
+  }
+  throw FormatError("has damaged compressed data");
+}
+
 Cloud read_compressed(Header header, std::string_view bytes) {
   BinaryCursor sizes(bytes, std::endian::little);
-  const auto packed_size = static_cast<std::size_t>(sizes.next(Scalar::kUint32));
-  const auto size = static_cast<std::size_t>(sizes.next(Scalar::kUint32));
+  const auto packed_size = static_cast<std::uint32_t>(sizes.next(Scalar::kUint32));
+  const auto size = static_cast<std::uint32_t>(sizes.next(Scalar::kUint32));
   bytes.remove_prefix(8);
   // PCL announces padding but leaves it out of compressed data; others keep it. The size tells.
   if (!is_size_of(size, header)) {
@@ -186,7 +206,7 @@ Cloud read_compressed(Header header, std::string_view bytes) {
   if (packed_size > bytes.size() || !is_size_of(size, header)) {
     throw FormatError("announces more or fewer points than it has");
   }
-  return read_columns(header, unpack_lzf(bytes.substr(0, packed_size), size));
+  return read_columns(header, unpack(bytes.substr(0, packed_size), size));
 }
 
 }  // namespace

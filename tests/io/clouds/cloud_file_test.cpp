@@ -6,8 +6,6 @@
 
 #include "tests/io/scans/scan_files.h"
 #include "tests/temporary_folder.h"
-#include "voxlist/io/clouds/lzf.h"
-#include "voxlist/io/files/cursor.h"
 
 namespace voxlist::io {
 namespace {
@@ -110,39 +108,38 @@ TEST(CloudFile, ErrorsNameTheFileAndSayWhatToDo) {
   EXPECT_NE(error_of(flat).find("no x, y and z"), std::string::npos);
 }
 
-TEST(Lzf, RepeatsWhatReferencesPointTo) {
-  // "ab", then 9 bytes from 2 back (overlapping what it writes).
-  const std::string packed{
-      "\x01"
-      "ab"
-      "\xE0\x00\x01",
-      6};
-  EXPECT_EQ(unpack_lzf(packed, 11), "abababababa");
+// 4 bytes as they are (the float 1.0), then 8 bytes from 4 back, which overlap what they write.
+const std::string kPackedOnes("\x03\x00\x00\x80\x3F\xC0\x03", 7);
+
+TEST(CompressedPcd, RepeatsWhatReferencesPointTo) {
+  const TemporaryFolder folder;
+  const auto path = folder.write("a.pcd", test::compressed_pcd(1, kPackedOnes, 12));
+  EXPECT_EQ(read_cloud_file(path).points, std::vector<Eigen::Vector3f>{Eigen::Vector3f::Ones()});
 }
 
-TEST(Lzf, RefusesReferencesBeforeTheStartAndWrongSizes) {
-  EXPECT_THROW(unpack_lzf(std::string("\x00"
-                                      "a"
-                                      "\x20\x05",
-                                      4),
-                          4),
-               FormatError);
-  EXPECT_THROW(unpack_lzf(std::string("\x01"
-                                      "ab",
-                                      3),
-                          3),
-               FormatError);
-  EXPECT_THROW(unpack_lzf(std::string("\x01"
-                                      "ab",
-                                      3),
-                          1),
-               FormatError);
-  EXPECT_THROW(unpack_lzf(std::string("\x05"
-                                      "ab",
-                                      3),
-                          6),
-               FormatError);
-  EXPECT_THROW(unpack_lzf("", std::size_t{1} << 40), FormatError);
+TEST(CompressedPcd, OfNothingHasNoPoints) {
+  const TemporaryFolder folder;
+  const auto path = folder.write("a.pcd", test::compressed_pcd(0, "", 0));
+  EXPECT_TRUE(read_cloud_file(path).points.empty());
+}
+
+TEST(CompressedPcd, RefusesReferencesBeforeTheStartAndWrongSizes) {
+  const TemporaryFolder folder;
+  const std::string before_the_start = std::string("\x03\x00\x00\x80\x3F\xC0\x04", 7);
+  const std::string too_short = kPackedOnes.substr(0, 5), too_long = kPackedOnes + kPackedOnes;
+  for (const std::string& packed :
+       {before_the_start, too_short, too_long, kPackedOnes.substr(0, 6), std::string()}) {
+    const auto path = folder.write("a.pcd", test::compressed_pcd(1, packed, 12));
+    EXPECT_NE(error_of(path).find("damaged compressed data"), std::string::npos) << error_of(path);
+  }
+  const auto empty = folder.write("a.pcd", test::compressed_pcd(0, kPackedOnes, 0));
+  EXPECT_NE(error_of(empty).find("damaged compressed data"), std::string::npos) << error_of(empty);
+}
+
+TEST(CompressedPcd, AllocatesOnlyWhatItsDataCanUnpackTo) {
+  const TemporaryFolder folder;
+  const auto path = folder.write("a.pcd", test::compressed_pcd(357913941, kPackedOnes, 4294967292));
+  EXPECT_NE(error_of(path).find("damaged compressed data"), std::string::npos) << error_of(path);
 }
 
 }  // namespace

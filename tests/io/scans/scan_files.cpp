@@ -82,6 +82,16 @@ ScanSample pcd_binary() {
   return {".pcd", "binary", bytes};
 }
 
+// LZF of the simplest kind: literals only.
+std::string pack_lzf_literally(const std::string& bytes) {
+  std::string packed;
+  for (std::size_t at = 0; at < bytes.size(); at += 32) {
+    const std::string literals = bytes.substr(at, 32);
+    packed += static_cast<char>(literals.size() - 1) + literals;
+  }
+  return packed;
+}
+
 ScanSample pcd_compressed() {
   const auto points = sample_points();
   std::string x, y, z;
@@ -119,13 +129,10 @@ std::vector<ScanSample> scan_samples() {
           pcd_compressed()};
 }
 
-std::string pack_lzf_literally(const std::string& bytes) {
-  std::string packed;
-  for (std::size_t at = 0; at < bytes.size(); at += 32) {
-    const std::string literals = bytes.substr(at, 32);
-    packed += static_cast<char>(literals.size() - 1) + literals;
-  }
-  return packed;
+std::string compressed_pcd(std::size_t points, const std::string& packed, std::uint32_t size) {
+  return "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH " + std::to_string(points) +
+         "\nHEIGHT 1\nDATA binary_compressed\n" + raw(static_cast<std::uint32_t>(packed.size())) +
+         raw(size) + packed;
 }
 
 }  // namespace voxlist::test

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -22,7 +23,7 @@ std::vector<Eigen::Vector3f> sample_points();
 /// and padding around them.
 std::vector<ScanSample> scan_samples();
 
-/// LZF of the simplest kind: literals only.
-std::string pack_lzf_literally(const std::string& bytes);
+/// A compressed PCD file of x, y and z (float), with this LZF data that unpacks to `size` bytes.
+std::string compressed_pcd(std::size_t points, const std::string& packed, std::uint32_t size);
 
 }  // namespace voxlist::test
