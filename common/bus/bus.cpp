@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <stdexcept>
+#include <string_view>
 
 #include "voxlist/bus/transport.h"
 
@@ -19,7 +20,7 @@ constexpr int kLatestCapacity = 64;
 
 constexpr std::size_t kMaxChannelName = 63;
 
-const std::string kFileScheme = "file://";
+constexpr std::string_view kFileScheme = "file://";
 
 bool is_plain(const std::string& channel) {
   const auto allowed = [](char c) {
@@ -50,25 +51,36 @@ struct Subscription {
 struct Bus::Impl {
   std::string prefix;
   std::unique_ptr<Transport> transport;
-  // By the name on the wire. A map: handlers may subscribe while one of them runs.
+  // Each by its name on the wire. A map keeps its entries in place: handlers may subscribe while
+  // one of them runs.
   std::map<std::string, Subscription> subscriptions;
   Counters counters;
+  Counters losses;
   std::vector<std::string> warnings;
   std::string first_handler_error;
   std::int64_t arrival_utime_us = 0;
 
   void count(const std::string& channel, const char* what) { ++counters[channel + '/' + what]; }
 
+  void count_loss(const std::string& channel, const char* what) {
+    count(channel, what);
+    ++losses[channel + '/' + what];
+  }
+
+  void count_handled(const std::string& channel, Fault fault) {
+    if (fault == Fault::kNone) return count(channel, "handled");
+    count_loss(channel, fault_name(fault));
+  }
+
   void handler_failed(const std::string& channel, const char* what) {
-    count(channel, "handler_failed");
+    count_loss(channel, "handler_failed");
     if (first_handler_error.empty()) first_handler_error = channel + ": " + what;
   }
 
   void deliver(const Subscription& to, Bytes bytes, std::int64_t arrival) {
     arrival_utime_us = arrival;
     try {
-      const Fault fault = to.take(bytes);
-      count(to.channel, fault == Fault::kNone ? "handled" : fault_name(fault));
+      count_handled(to.channel, to.take(bytes));
     } catch (const std::exception& error) {
       handler_failed(to.channel, error.what());
     } catch (...) {
@@ -79,7 +91,7 @@ struct Bus::Impl {
   // Checked on arrival, so that a bad message never supersedes a good one.
   void keep(Subscription& to, const RawMessage& message) {
     if (const Fault fault = to.check(message.bytes); fault != Fault::kNone) {
-      return count(to.channel, fault_name(fault));
+      return count_loss(to.channel, fault_name(fault));
     }
     if (to.waiting) count(to.channel, "superseded");
     to.waiting = Waiting{{message.bytes.begin(), message.bytes.end()}, message.arrival_utime_us};
@@ -107,14 +119,16 @@ struct Bus::Impl {
   }
 };
 
+bool is_recording(const std::string& url) { return url.starts_with(kFileScheme); }
+
 Bus::Bus(const BusOptions& options) : impl_(std::make_unique<Impl>()) {
   if (!is_plain(options.prefix)) {
     throw std::runtime_error("bus: channel prefix '" + options.prefix +
                              "' may only hold letters, digits, _ - and /");
   }
   impl_->prefix = options.prefix;
-  impl_->transport = options.url.starts_with(kFileScheme) ? open_log(log_path(options.url))
-                                                          : open_lcm(options, impl_->warnings);
+  impl_->transport = is_recording(options.url) ? open_log(log_path(options.url))
+                                               : open_lcm(options, impl_->warnings);
 }
 
 Bus::~Bus() = default;
@@ -122,11 +136,12 @@ Bus::~Bus() = default;
 void Bus::publish_encoded(const std::string& channel, Bytes bytes) {
   const std::string wire_name = impl_->prefix + channel;
   const bool sent = wire_name.size() <= kMaxChannelName && impl_->transport->send(wire_name, bytes);
-  impl_->count(channel, sent ? "sent" : "unsent_refused");
+  if (sent) return impl_->count(channel, "sent");
+  impl_->count_loss(channel, "unsent_refused");
 }
 
 void Bus::count_unsent(const std::string& channel, const char* reason) {
-  ++impl_->counters[channel + "/unsent_" + reason];
+  impl_->count_loss(channel, ("unsent_" + std::string(reason)).c_str());
 }
 
 void Bus::subscribe_encoded(const std::string& channel, Check check, Take take, Delivery delivery) {
@@ -156,6 +171,8 @@ bool Bus::handle(std::chrono::milliseconds timeout, int wake_fd) {
 }
 
 const Counters& Bus::counters() const { return impl_->counters; }
+
+const Counters& Bus::losses() const { return impl_->losses; }
 
 const std::vector<std::string>& Bus::warnings() const { return impl_->warnings; }
 

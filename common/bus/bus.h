@@ -28,6 +28,10 @@ struct BusOptions {
   int receive_buffer_bytes = 8'000'000;
 };
 
+/// Whether a url names a recording, which ends, and not a network.
+bool is_recording(const std::string& url);
+
+/// Which of a channel's messages a handler gets.
 enum class Delivery {
   /// Every message, at once, in the order of arrival.
   kEvery,
@@ -43,10 +47,9 @@ enum class Delivery {
 /// One gap is not ours to close: a forged fragment of a large message can crash liblcm's own
 /// reassembly, so the network is to be trusted with packets, if not with messages.
 ///
-/// counters(), where CH is the channel without prefix: CH/received = CH/handled + CH/handler_failed
-/// + CH/superseded
-/// + the sum of CH/<fault_name>, once handle() has returned. CH/sent, CH/unsent_<reason> for
-/// publishing.
+/// counters(), where CH is the channel without prefix, has CH/sent and CH/unsent_<reason> for what
+/// was published, and for what came in, once handle() has returned:
+/// CH/received = CH/handled + CH/handler_failed + CH/superseded + the sum of CH/<fault_name>.
 class Bus {
  public:
   /// Connects. Throws std::runtime_error that says what, where, and what to do about it.
@@ -89,6 +92,10 @@ class Bus {
 
   /// What happened so far, by channel.
   const Counters& counters() const;
+
+  /// Those of counters() that count messages which were lost: neither handled nor sent, and not
+  /// superseded by a newer one either.
+  const Counters& losses() const;
 
   /// What is not as asked but no reason to stop, for the service's log: one line each, with the
   /// remedy.

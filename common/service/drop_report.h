@@ -8,13 +8,12 @@
 
 namespace voxlist::service {
 
-/// Turns a bus's counters into lines for the log: what went wrong the first time at once, then at
-/// most once a second with how often since. Messages received, handled, sent or superseded by newer
-/// ones are no wrong.
+/// Turns the counters of lost messages (Bus::losses()) into lines for the log. A reason is told at
+/// once when it first occurs, then at most once a second with how many more were lost since.
 class DropReport {
  public:
-  /// The lines that are due now; call it again and again with the counters as they grow.
-  std::vector<std::string> due(const bus::Counters& counters, std::int64_t now_us);
+  /// The lines that are due now. To be called again and again with the counters as they grow.
+  std::vector<std::string> due(const bus::Counters& losses, std::int64_t now_us);
 
  private:
   struct Told {

@@ -42,8 +42,6 @@ void log_to_stderr(const std::string& name) {
   spdlog::set_default_logger(std::move(logger));
 }
 
-bool is_recording(const std::string& url) { return url.starts_with("file://"); }
-
 // The wall clock at the start and the steady clock from there on: nothing periodic stalls when
 // somebody sets the clock.
 class Clock {
@@ -61,7 +59,7 @@ class Clock {
 
 void log_troubles(const bus::Bus& bus, DropReport& drops, std::string& told_error,
                   std::int64_t now_us) {
-  for (const std::string& line : drops.due(bus.counters(), now_us)) spdlog::warn("{}", line);
+  for (const std::string& line : drops.due(bus.losses(), now_us)) spdlog::warn("{}", line);
   if (told_error == bus.first_handler_error()) return;
   told_error = bus.first_handler_error();
   spdlog::error("{}", told_error);
@@ -111,7 +109,7 @@ int run_service(int argc, char** argv, const ServiceInfo& info, const config::Se
   bus::Health health(info.name);
   const auto service = make(bus, health);
   spdlog::info("started on {}", options.url);
-  const bool wanted = run_until_stopped(bus, health, *service) || is_recording(options.url);
+  const bool wanted = run_until_stopped(bus, health, *service) || bus::is_recording(options.url);
   if (!wanted) throw std::runtime_error("the connection to " + options.url + " broke; start again");
   spdlog::info("stopped");
   return 0;

@@ -13,9 +13,12 @@
 namespace voxlist::services {
 namespace {
 
+// An input is silent after this (us): 75 lines, or 20 poses at ODOMETRY's lowest rate. Shorter, and
+// a busy machine's pauses are told as silence; longer, and a person waits for the reason.
 constexpr std::int64_t kSilence_us = 1'000'000;
 
-// A line or two lost in a sweep is everyday life on a serial line.
+// Below this share of a sweep's lines HEALTH warns. It leaves three of 75 lines: one or two that
+// are lost in a sweep are everyday life on a serial line.
 constexpr double kGoodLineShare = 0.95;
 
 }  // namespace
@@ -58,11 +61,9 @@ void CloudAssemblerService::publish(const scanner::Assembly& assembly) {
     arrival_us_ = bus_.arrival_utime_us();
   }
   line_share_ = assembly.line_share.value_or(line_share_);
-  for (const auto& [what, times] : assembly.counts) {
-    health_.count(what, times);
-    if (what == "LASER/assembled" || what == "LASER/dead_side") used_.heard = true;
-    if (what.starts_with("LASER/") && !used_.heard) last_drop_ = what;
-  }
+  for (const auto& [what, times] : by_counter_name(assembly.counts)) health_.count(what, times);
+  if (has_used_line(assembly.counts)) used_.heard = true;
+  if (const auto fate = unused_line(assembly.counts); fate && !used_.heard) last_drop_ = fate;
 }
 
 void CloudAssemblerService::tick(std::int64_t now_us) {
@@ -90,9 +91,9 @@ void CloudAssemblerService::tell_state(std::int64_t now_us) {
                              "set use_odometry = false");
   if (used_.is_silent(now_us))
     return health_.set_state(State::kError,
-                             "no line can be used (" + last_drop_ +
-                                 "): do the times of LASER, MIRROR and ODOMETRY agree?");
-  if (!mirror_state_.reason.empty())
+                             "no line can be used" + drop_reason() +
+                                 ": do the times of LASER, MIRROR and ODOMETRY agree?");
+  if (mirror_state_.state == MirrorState::State::kFault)
     return health_.set_state(State::kWarning, "mirror: " + mirror_state_.reason);
   if (line_share_ < kGoodLineShare)
     return health_.set_state(State::kWarning,
@@ -100,6 +101,10 @@ void CloudAssemblerService::tell_state(std::int64_t now_us) {
                                  std::to_string(std::lround(100.0 * line_share_)) +
                                  " % of its lines: see LASER/missing and the other counters");
   health_.set_state(State::kOk);
+}
+
+std::string CloudAssemblerService::drop_reason() const {
+  return last_drop_ ? " (" + scanner::counter_name(*last_drop_) + ")" : "";
 }
 
 void CloudAssemblerService::Input::note(std::int64_t now_us) {

@@ -39,16 +39,17 @@ class CloudAssemblerService {
   void take_odometry(const pose_t& message);
   void publish(const scanner::Assembly& assembly);
   void tell_state(std::int64_t now_us);
+  std::string drop_reason() const;
 
   bus::Bus& bus_;
   bus::Health& health_;
   const scanner::CloudAssemblerConfig config_;
   scanner::CloudAssembler assembler_;
   Input laser_, mirror_, odometry_;
-  Input used_;             // lines that got as far as a cloud
-  std::string last_drop_;  // why one did not
+  Input used_;                                  // lines that got as far as a cloud
+  std::optional<scanner::LineFate> last_drop_;  // why one did not
   MirrorState mirror_state_;
-  double line_share_ = 1.0;  // of the last sweep
+  double line_share_ = 1.0;  // what share of its lines the last sweep had
   std::int32_t clouds_ = 0, slices_ = 0;
   bool started_ = false;
   std::optional<std::int64_t> arrival_us_;  // of the message that completed the last cloud

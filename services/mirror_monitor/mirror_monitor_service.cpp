@@ -2,6 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <numbers>
@@ -22,8 +23,8 @@ std::int64_t wall_us() {
   return duration_cast<microseconds>(system_clock::now().time_since_epoch()).count();
 }
 
-bus::Health::State how_bad(const MirrorState& state) {
-  switch (state.state) {
+bus::Health::State how_bad(MirrorState::State state) {
+  switch (state) {
     case MirrorState::State::kLocked:
       return bus::Health::State::kOk;
     case MirrorState::State::kStalled:
@@ -98,22 +99,20 @@ void MirrorMonitorService::count() {
 
 void MirrorMonitorService::tell() {
   using S = bus::Health::State;
-  std::string what = edges_ ? edges_->trouble() : "";
-  S state = what.empty() ? S::kOk : S::kWarning;
-  if (!last_) {
-    state = S::kWarning;
-    if (what.empty()) what = "no LASER yet: does laser_driver run?";
-  } else if (how_bad(*last_) > state || what.empty()) {
-    state = how_bad(*last_);
-    what = last_->reason + (what.empty() ? "" : "; " + what);
-  }
-  health_.set_state(state, what);
-  // Durations in a reason change all the time: what is logged is its first words.
-  const std::string words = what.substr(0, what.find_first_of(":0123456789"));
-  if (words == logged_) return;
-  logged_ = words;
-  if (what.empty()) spdlog::info("the mirror's angle is known");
-  if (!what.empty()) spdlog::warn("{}", what);
+  const Trouble trouble{last_ ? std::optional(clock_.trouble()) : std::nullopt,
+                        edges_ ? edges_->trouble() : ""};
+  const S mirror = last_ ? how_bad(last_->state) : S::kWarning;
+  const S device = trouble.device.empty() ? S::kOk : S::kWarning;
+  const std::string of_mirror = last_ ? last_->reason : "no LASER yet: does laser_driver run?";
+  // The device explains a mirror that is no worse than it: then its sentence is enough.
+  std::string message = trouble.device;
+  if (device == S::kOk) message = of_mirror;
+  if (device != S::kOk && mirror > device) message = of_mirror + "; " + trouble.device;
+  health_.set_state(std::max(mirror, device), message);
+  if (trouble == logged_) return;
+  logged_ = trouble;
+  if (mirror == S::kOk && device == S::kOk) return spdlog::info("the mirror's angle is known");
+  spdlog::warn("{}", message);
 }
 
 }  // namespace voxlist::services

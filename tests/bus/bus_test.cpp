@@ -70,6 +70,7 @@ TEST(Bus, HandsOverOnlyTheNewestWhenAskedAndAfterEverythingElse) {
   EXPECT_EQ(count(bus, "POSE/received"), 3);
   EXPECT_EQ(count(bus, "POSE/superseded"), 2);
   EXPECT_EQ(count(bus, "POSE/handled"), 1);
+  EXPECT_EQ(bus.losses(), Counters{}) << "nothing is lost that a newer message replaced";
 }
 
 TEST(Bus, KeepsTheLastGoodMessageWhenABadOneFollows) {
@@ -100,6 +101,8 @@ TEST(Bus, CountsWhatItRefusesByReason) {
   EXPECT_EQ(count(bus, "POSE/trailing_bytes"), 1);
   EXPECT_EQ(count(bus, "POSE/wrong_type"), 1);
   EXPECT_EQ(count(bus, "POSE/received"), 4);
+  EXPECT_EQ(bus.losses(),
+            (Counters{{"POSE/trailing_bytes", 1}, {"POSE/truncated", 2}, {"POSE/wrong_type", 1}}));
 }
 
 TEST(Bus, CatchesWhatHandlersThrowAndGoesOn) {

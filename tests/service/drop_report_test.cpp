@@ -30,15 +30,6 @@ TEST(DropReport, IsSilentWhenNothingNewWentWrong) {
   EXPECT_THAT(report.due({{"CLOUD/truncated", 1}}, 5'000'000), IsEmpty());
 }
 
-TEST(DropReport, IsSilentAboutWhatIsAsItShouldBe) {
-  DropReport report;
-  EXPECT_THAT(
-      report.due(
-          {{"CLOUD/received", 9}, {"CLOUD/handled", 8}, {"CLOUD/superseded", 1}, {"POSE/sent", 8}},
-          0),
-      IsEmpty());
-}
-
 TEST(DropReport, TellsOfEachReasonByItself) {
   DropReport report;
   report.due({{"CLOUD/truncated", 1}}, 0);

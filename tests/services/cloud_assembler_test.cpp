@@ -41,7 +41,8 @@ struct Scene {
   void mirror(std::int64_t utime_us, bool known = true, const std::string& reason = "") {
     MirrorState state;
     state.utime_us = utime_us;
-    state.state = known ? MirrorState::State::kLocked : MirrorState::State::kStalled;
+    const auto turning = reason.empty() ? MirrorState::State::kLocked : MirrorState::State::kFault;
+    state.state = known ? turning : MirrorState::State::kStalled;
     state.angle_known = known;
     state.reason = reason;
     const double angle_rad = kPi * static_cast<double>(utime_us - kStart_us) * 1e-6;

@@ -38,28 +38,38 @@ void answer_by_arms(const MirrorByArms& arms, MirrorState& state) {
   state.residual_rad = arms.residual_rad();
 }
 
-}  // namespace
-
-MirrorState mirror_answer(const MirrorEvidence& evidence) {
-  MirrorState state;
-  state.utime_us = evidence.now_us;
-  if (evidence.stall.since_us()) {
-    state.state = State::kStalled;
-    state.reason = how_it_stands(evidence);
-    return state;
-  }
+// Writes the angle into `state` when clock or arms know it.
+void answer_angle(const MirrorEvidence& evidence, MirrorState& state) {
   if (clock_is_better(evidence)) {
     answer_by_clock(evidence.clock, state);
   } else if (evidence.arms.locked() && !evidence.arms_silent()) {
     answer_by_arms(evidence.arms, state);
   } else {
-    state.reason = why_searching(evidence);
-    return state;
+    return;
   }
   state.angle_known = true;
-  state.reason = what_is_wrong(evidence);
-  state.state = state.reason.empty() ? State::kLocked : State::kFault;
-  return state;
+}
+
+State state_of(bool angle_known, MirrorTrouble trouble) {
+  if (trouble == MirrorTrouble::kStands) return State::kStalled;
+  if (!angle_known) return State::kSearching;
+  return trouble == MirrorTrouble::kNone ? State::kLocked : State::kFault;
+}
+
+}  // namespace
+
+MirrorAnswer mirror_answer(const MirrorEvidence& evidence) {
+  MirrorAnswer answer;
+  answer.state.utime_us = evidence.now_us;
+  if (evidence.stall.since_us()) {
+    answer.trouble = MirrorTrouble::kStands;
+  } else {
+    answer_angle(evidence, answer.state);
+    answer.trouble = answer.state.angle_known ? fault(evidence) : why_searching(evidence);
+  }
+  answer.state.state = state_of(answer.state.angle_known, answer.trouble);
+  answer.state.reason = sentence(answer.trouble, evidence);
+  return answer;
 }
 
 }  // namespace voxlist::scanner

@@ -29,10 +29,13 @@ class MirrorClock::Impl {
     evidence_.silence.looked(line.utime_us);
     for (const ArmPassage& passage : detector_.add(line)) take(passage);
     notice_stall(line);
-    MirrorState state = mirror_answer(evidence_);
+    auto [state, trouble] = mirror_answer(evidence_);
+    trouble_ = trouble;
     state.half_revolutions = half_turns_.count(state);
     return state;
   }
+
+  MirrorTrouble trouble() const { return trouble_; }
 
   Counts counts() const {
     Counts counts = counts_;
@@ -106,6 +109,7 @@ class MirrorClock::Impl {
   ArmDetector detector_;
   MirrorEvidence evidence_;
   HalfTurns half_turns_;
+  MirrorTrouble trouble_ = MirrorTrouble::kNoArmYet;
   bool started_ = false;
   Counts counts_;
 };
@@ -116,6 +120,7 @@ MirrorClock::~MirrorClock() = default;
 
 void MirrorClock::add_edge(std::int64_t utime_us) { impl_->add_edge(utime_us); }
 MirrorState MirrorClock::add_line(const LaserLine& line) { return impl_->add_line(line); }
+MirrorTrouble MirrorClock::trouble() const { return impl_->trouble(); }
 MirrorClock::Counts MirrorClock::counts() const { return impl_->counts(); }
 double MirrorClock::clock_period_us() const { return impl_->clock_period_us(); }
 

@@ -6,6 +6,7 @@
 #include "voxlist/geometry/laser_line.h"
 #include "voxlist/geometry/mirror_state.h"
 #include "voxlist/scanner/mirror/mirror_clock_config.h"
+#include "voxlist/scanner/mirror/mirror_trouble.h"
 
 namespace voxlist::scanner {
 
@@ -41,9 +42,12 @@ class MirrorClock {
   /// before it. Costs some 20 us, and about 0.5 ms when an arm has passed.
   MirrorState add_line(const LaserLine& line);
 
+  /// What was wrong with the mirror at the last line.
+  MirrorTrouble trouble() const;
+
   Counts counts() const;
 
-  /// Of the clock, as measured; 0 when it is not known.
+  /// The clock's measured period, microseconds; 0 when it is not known.
   double clock_period_us() const;
 
  private:

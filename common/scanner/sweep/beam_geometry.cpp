@@ -18,13 +18,6 @@ constexpr double kAngleSlack_rad = 1e-4;
 
 }  // namespace
 
-const char* name(BeamFate fate) {
-  constexpr std::array<const char*, kBeamFates> kNames{
-      "points",        "off_mirror", "blind",   "no_measurement", "no_return",
-      "before_mirror", "too_near",   "too_far", "robot"};
-  return kNames[static_cast<std::size_t>(fate)];
-}
-
 BeamGeometry::BeamGeometry(const CloudAssemblerConfig& config)
     : model_(config.geometry.model()),
       T_base_laser_(config.geometry.T_base_laser()),

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -24,9 +23,6 @@ enum class BeamFate {
   kRobot,  ///< hit the robot itself
 };
 inline constexpr std::size_t kBeamFates = 9;
-
-/// The fate as a counter's name ends, e.g. "before_mirror".
-const char* name(BeamFate fate);
 
 /// A ray in base: where it left the mirror, and what it hit. Metres.
 struct BeamHit {

@@ -1,7 +1,6 @@
 #include "voxlist/scanner/sweep/cloud_assembler.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -12,10 +11,12 @@ namespace {
 
 constexpr double kRadians = std::numbers::pi / 180.0;
 
-// A line that is this much older than the one before is no late one: time started anew.
+// A line that is older than the one before by more than this (us) is not late: time started anew,
+// as when a log is played again. Lines that overtake each other on the bus are milliseconds apart.
 constexpr std::int64_t kTimeStartsAnew_us = 1'000'000;
 
-// More than any sweep has: its mirror hardly turns.
+// A sweep with more points is thrown away. One of 75 lines has 9,825 beams on the mirror, so this
+// is a mirror that needs 100 s or more for half a turn; a cloud of a million points has 24 MB.
 constexpr std::size_t kMaxSweepPoints = 1'000'000;
 
 std::int64_t to_us(double ms) { return std::llround(ms * 1e3); }
@@ -48,14 +49,14 @@ Assembly CloudAssembler::add_line(LaserLine line) {
   line.utime_us -= to_us(config_.geometry.latency_ms);
   note_time(line, out);
   if (newest_us_ && line.utime_us <= *newest_us_) {
-    ++out.counts["LASER/out_of_order"];
+    ++out.counts[LineFate::kOutOfOrder];
     return out;
   }
   newest_us_ = line.utime_us;
   waiting_.push_back(std::move(line));
   if (waiting_.size() > static_cast<std::size_t>(config_.max_waiting_lines)) {
     waiting_.pop_front();
-    ++out.counts["LASER/too_many_waiting"];
+    ++out.counts[LineFate::kTooManyWaiting];
   }
   advance(out);
   return out;
@@ -80,7 +81,7 @@ void CloudAssembler::note_time(const LaserLine& line, Assembly& out) {
   if (!newest_us_) return;
   const std::int64_t step_us = line.utime_us - *newest_us_;
   if (step_us < -kTimeStartsAnew_us) {
-    ++out.counts["LASER/time_started_anew"];
+    ++out.counts[LineFate::kTimeStartedAnew];
     newest_us_.reset();
     waiting_.clear();
     sweep_.clear();
@@ -89,25 +90,25 @@ void CloudAssembler::note_time(const LaserLine& line, Assembly& out) {
   } else if (const auto steps =
                  std::llround(static_cast<double>(step_us) * 1e-6 * config_.lines_per_s);
              steps > 1) {
-    out.counts["LASER/missing"] += steps - 1;
+    out.counts[LineFate::kMissing] += steps - 1;
   }
 }
 
 void CloudAssembler::advance(Assembly& out) {
   while (!waiting_.empty()) {
     const LaserLine& line = waiting_.front();
-    const Ready ready = look_up(line);
-    const bool may_come = ready == Ready::kNoMirrorYet || ready == Ready::kNoOdometry;
+    const std::optional<LineFate> lack = look_up(line);
+    const bool may_come = lack == LineFate::kNoMirrorYet || lack == LineFate::kNoOdometry;
     if (may_come && !is_overdue(line)) return;
-    if (ready == Ready::kYes)
-      assemble(line, out);
+    if (lack)
+      drop(*lack, out);
     else
-      drop(ready, out);
+      assemble(line, out);
     waiting_.pop_front();
   }
 }
 
-CloudAssembler::Ready CloudAssembler::look_up(const LaserLine& line) {
+std::optional<LineFate> CloudAssembler::look_up(const LaserLine& line) {
   mirror_.clear();
   for (std::size_t i = 0; i < line.ranges_m.size(); ++i) {
     mirror_.push_back(motion_.at(beam_utime_us(line, i)));
@@ -115,31 +116,29 @@ CloudAssembler::Ready CloudAssembler::look_up(const LaserLine& line) {
       case MirrorAt::Known::kYes:
         break;
       case MirrorAt::Known::kNotYet:
-        return Ready::kNoMirrorYet;
+        return LineFate::kNoMirrorYet;
       case MirrorAt::Known::kLost:
-        return Ready::kMirrorLost;
+        return LineFate::kMirrorLost;
       case MirrorAt::Known::kNever:
-        return Ready::kMirrorUnknown;
+        return LineFate::kMirrorUnknown;
     }
   }
-  if (!config_.use_odometry) return Ready::kYes;
+  if (!config_.use_odometry) return std::nullopt;
   const auto is_known = [this](std::int64_t utime_us) {
     return odometry_.estimate(utime_us, odometry_reach_us_).has_value();
   };
-  return is_known(line.utime_us) && is_known(beam_utime_us(line, line.ranges_m.size() - 1))
-             ? Ready::kYes
-             : Ready::kNoOdometry;
+  if (is_known(line.utime_us) && is_known(beam_utime_us(line, line.ranges_m.size() - 1)))
+    return std::nullopt;
+  return LineFate::kNoOdometry;
 }
 
 bool CloudAssembler::is_overdue(const LaserLine& line) const {
   return *newest_us_ - line.utime_us > to_us(config_.max_wait_ms);
 }
 
-void CloudAssembler::drop(Ready why, Assembly& out) {
-  constexpr std::array kNames{"assembled", "no_mirror_yet", "no_odometry", "mirror_lost",
-                              "mirror_unknown"};
-  ++out.counts[std::string("LASER/") + kNames[static_cast<std::size_t>(why)]];
-  if (why == Ready::kMirrorLost) abandon_sweep("mirror_lost", out);
+void CloudAssembler::drop(LineFate why, Assembly& out) {
+  ++out.counts[why];
+  if (why == LineFate::kMirrorLost) abandon_sweep(SweepLoss::kMirrorLost, out);
 }
 
 void CloudAssembler::assemble(const LaserLine& line, Assembly& out) {
@@ -149,7 +148,7 @@ void CloudAssembler::assemble(const LaserLine& line, Assembly& out) {
   if (place.starts_sweep) end_sweep(out);
   sweep_.whole_lines = place.sweep_lines;
   if (config_.mirror_sides == 1 && beams_.side(mirror_[mirror_.size() / 2].psi_rad) == 1)
-    ++out.counts["LASER/dead_side"];
+    ++out.counts[LineFate::kDeadSide];
   else
     place_beams(line, out);
   if (slice_.lines >= config_.lines_per_slice) end_slice(out);
@@ -160,12 +159,11 @@ void CloudAssembler::place_beams(const LaserLine& line, Assembly& out) {
   const double period_us = 1e6 / config_.lines_per_s;
   if (slice_.lines > 0 && static_cast<double>(line.utime_us - slice_.end_us) > 1.5 * period_us)
     end_slice(out);  // a slice has no hole
-  std::array<std::int64_t, kBeamFates> fates{};
   for (std::size_t i = 0; i < line.ranges_m.size(); ++i) {
     BeamHit hit;
     const BeamFate fate =
         beams_.follow(mirror_[i].psi_rad, line.angle_rad(i), line.ranges_m[i], hit);
-    ++fates[static_cast<std::size_t>(fate)];
+    ++out.counts[fate];
     if (fate != BeamFate::kPoint) continue;
     sweep_.points.add(beam_utime_us(line, i), hit);
     slice_.points.add(beam_utime_us(line, i), hit);
@@ -175,11 +173,8 @@ void CloudAssembler::place_beams(const LaserLine& line, Assembly& out) {
     part->end_us = beam_utime_us(line, line.ranges_m.size() - 1);
     part->points.settle();
   }
-  ++out.counts["LASER/assembled"];
-  for (std::size_t i = 0; i < kBeamFates; ++i)
-    if (fates[i] > 0)
-      out.counts[std::string("beams/") + name(static_cast<BeamFate>(i))] += fates[i];
-  if (sweep_.points.size() > kMaxSweepPoints) abandon_sweep("too_long", out);
+  ++out.counts[LineFate::kAssembled];
+  if (sweep_.points.size() > kMaxSweepPoints) abandon_sweep(SweepLoss::kTooLong, out);
 }
 
 void CloudAssembler::end_slice(Assembly& out) {
@@ -193,17 +188,17 @@ void CloudAssembler::end_sweep(Assembly& out) {
   if (sweep_.lines > 0) {
     out.line_share = std::min(1.0, sweep_.lines / sweep_.whole_lines);
     if (*out.line_share < config_.min_line_share)
-      ++out.counts["CLOUD/too_few_lines"];
+      ++out.counts[SweepLoss::kTooFewLines];
     else if (auto cloud = sweep_.points.finish(sweep_.end_us))
       out.clouds.push_back(std::move(*cloud));
     else
-      ++out.counts["CLOUD/odometry_lost"];
+      ++out.counts[SweepLoss::kOdometryLost];
   }
   sweep_.clear();
 }
 
-void CloudAssembler::abandon_sweep(const char* why, Assembly& out) {
-  if (sweep_.lines > 0) ++out.counts[std::string("CLOUD/") + why];
+void CloudAssembler::abandon_sweep(SweepLoss why, Assembly& out) {
+  if (sweep_.lines > 0) ++out.counts[why];
   sweep_.clear();
   slice_.clear();
   divider_.forget();

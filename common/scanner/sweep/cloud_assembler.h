@@ -2,15 +2,14 @@
 
 #include <cstdint>
 #include <deque>
-#include <map>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "voxlist/geometry/cloud.h"
 #include "voxlist/geometry/laser_line.h"
 #include "voxlist/geometry/mirror_state.h"
 #include "voxlist/geometry/odometry_buffer.h"
+#include "voxlist/scanner/sweep/assembly_counts.h"
 #include "voxlist/scanner/sweep/beam_geometry.h"
 #include "voxlist/scanner/sweep/cloud_assembler_config.h"
 #include "voxlist/scanner/sweep/mirror_motion.h"
@@ -28,16 +27,11 @@ struct Assembly {
   /// points.
   std::vector<Cloud> slices;
 
-  /// Which part of its lines the sweep had that ended last, 0..1, whether it was handed out or not.
+  /// The share of its lines (0..1) that the sweep had which ended last, handed out or not.
   std::optional<double> line_share;
 
   /// What was used and what was not, by reason.
-  /// Lines: LASER/assembled, missing (a hole in LASER's times), out_of_order, no_mirror_yet,
-  /// no_odometry (both: waited too long), mirror_lost, mirror_unknown (MIRROR began too late, or
-  /// has a hole), too_many_waiting, dead_side, time_started_anew.
-  /// Beams of assembled lines: beams/points, beams/<what else became of them>.
-  /// Sweeps that are not handed out: CLOUD/too_few_lines, mirror_lost, odometry_lost, too_long.
-  std::map<std::string, std::int64_t> counts;
+  AssemblyCounts counts;
 };
 
 /// Lines of the laser, the mirror's states and odometry in, clouds out. Every beam is reflected at
@@ -74,18 +68,17 @@ class CloudAssembler {
     void clear();
   };
 
-  enum class Ready { kYes, kNoMirrorYet, kNoOdometry, kMirrorLost, kMirrorUnknown };
-
   void note_time(const LaserLine& line, Assembly& out);
   void advance(Assembly& out);
-  Ready look_up(const LaserLine& line);
+  // What the line lacks of mirror and odometry; nothing when it can be assembled.
+  std::optional<LineFate> look_up(const LaserLine& line);
   bool is_overdue(const LaserLine& line) const;
-  void drop(Ready why, Assembly& out);
+  void drop(LineFate why, Assembly& out);
   void assemble(const LaserLine& line, Assembly& out);
   void place_beams(const LaserLine& line, Assembly& out);
   void end_slice(Assembly& out);
   void end_sweep(Assembly& out);
-  void abandon_sweep(const char* why, Assembly& out);
+  void abandon_sweep(SweepLoss why, Assembly& out);
 
   const CloudAssemblerConfig config_;
   const std::int64_t odometry_reach_us_;

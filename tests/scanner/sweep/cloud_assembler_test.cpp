@@ -14,17 +14,18 @@ constexpr double kPi = std::numbers::pi;
 // Everything that came out.
 struct Made : Assembly {
   std::vector<double> line_shares;
+  std::map<std::string, std::int64_t> named;
 
   void operator+=(const Assembly& part) {
     clouds.insert(clouds.end(), part.clouds.begin(), part.clouds.end());
     slices.insert(slices.end(), part.slices.begin(), part.slices.end());
     if (part.line_share) line_shares.push_back(*part.line_share);
-    for (const auto& [what, times] : part.counts) counts[what] += times;
+    for (const auto& [what, times] : by_counter_name(part.counts)) named[what] += times;
   }
 
   std::int64_t counted(const std::string& what) const {
-    const auto found = counts.find(what);
-    return found == counts.end() ? 0 : found->second;
+    const auto found = named.find(what);
+    return found == named.end() ? 0 : found->second;
   }
 };
 
@@ -510,7 +511,7 @@ TEST(CloudAssembler, MirrorThatStandsFillsNoMemory) {
   for (int i = 0; i < 8'000; ++i) {
     line.utime_us += 13'333;
     standing.utime_us += 13'333;
-    made.counts = {};
+    made.named.clear();
     made += assembler.add_mirror(standing);
     made += assembler.add_line(line);
     made.slices.clear();

@@ -75,7 +75,7 @@ struct Simulation {
 
   void take(const Assembly& made) {
     clouds.insert(clouds.end(), made.clouds.begin(), made.clouds.end());
-    for (const auto& [what, times] : made.counts) counts[what] += times;
+    for (const auto& [what, times] : by_counter_name(made.counts)) counts[what] += times;
   }
 
   std::vector<double> errors_m(const Cloud& cloud) const {
