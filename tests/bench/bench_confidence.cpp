@@ -10,10 +10,10 @@
 #include <cstdlib>
 #include <fstream>
 #include <map>
-#include <numbers>
 #include <stdexcept>
 #include <string>
 
+#include "tests/bench/answers.h"
 #include "tests/bench/figures.h"
 #include "tests/bench/test_drive.h"
 #include "tests/bench/test_floor.h"
@@ -21,63 +21,6 @@
 
 namespace voxlist::bench {
 namespace {
-
-// A pose that is off by less is the right place.
-constexpr double kRight_m = 0.15, kRight_rad = 1.5 * std::numbers::pi / 180.0;
-
-bool right(const Pose2& pose, const Pose2& truth) {
-  return distance_m(pose, truth) < kRight_m && turn_rad(pose, truth) < kRight_rad;
-}
-
-// Index of the right mode, or -1.
-int right_mode(const matching::Localisation& result, const Pose2& truth, bool foreign) {
-  for (std::size_t i = 0; !foreign && i < result.modes.size(); ++i)
-    if (right(result.modes[i].T_map_base, truth)) return static_cast<int>(i);
-  return -1;
-}
-
-// Of one kind of scan, drive or kidnapping.
-struct Tally {
-  int asked = 0, tracking_right = 0, tracking_wrong = 0, ambiguous = 0, ambiguous_listed = 0,
-      lost = 0, first_right = 0;
-  double most_of_wrong = 0.0;
-
-  void add(const matching::Localisation& result, const Pose2& truth, bool foreign) {
-    const int listed = right_mode(result, truth, foreign);
-    ++asked;
-    first_right += listed == 0;
-    if (listed != 0) most_of_wrong = std::max(most_of_wrong, result.confidence);
-    if (result.tracking()) {
-      ++(listed == 0 ? tracking_right : tracking_wrong);
-    } else if (result.state == matching::LocalisationState::kAmbiguous) {
-      ++ambiguous;
-      ambiguous_listed += listed >= 0;
-    } else {
-      ++lost;
-    }
-  }
-
-  void print(const std::string& name) const {
-    std::printf(
-        "%-28s %5d: TRACKING %4d right, %d wrong; AMBIGUOUS %4d (right one listed %4d); LOST %4d; "
-        "first mode right %4d, most said of a wrong one %.3f\n",
-        name.c_str(), asked, tracking_right, tracking_wrong, ambiguous, ambiguous_listed, lost,
-        first_right, most_of_wrong);
-  }
-
-  void add_figures(const std::string& name, std::vector<Figure>& figures) const {
-    const auto add = [&](const char* measure, double value) {
-      figures.push_back({"six kinds of floors", name, measure, value});
-    };
-    add("asked", asked);
-    add("tracking_right", tracking_right);
-    add("tracking_wrong", tracking_wrong);
-    add("ambiguous", ambiguous);
-    add("ambiguous_and_right_listed", ambiguous_listed);
-    add("lost", lost);
-    add("highest_probability_of_a_wrong_one", most_of_wrong);
-  }
-};
 
 // How often the first mode was right where its probability was said to be so much.
 struct Reliability {
@@ -107,12 +50,6 @@ struct Reliability {
   }
 };
 
-TestFloorConfig few_scans_floor(int seed) {
-  TestFloorConfig config = floor_16_13(seed);
-  config.map_scan_spacing_m = 2.5;
-  return config;
-}
-
 // What a map is made of.
 struct Family {
   std::string name;
@@ -125,13 +62,6 @@ const std::vector<Family> kFamilies{
     {"identical", identical_floor, 0},     {"small", floor_16_13, 3},
     {"few map scans", few_scans_floor, 3}, {"dense laser", floor_40_25, 3}};
 
-// What is asked of the map.
-struct Kind {
-  std::string name;
-  bool changed, foreign, dense;
-  int people;
-};
-
 std::vector<Kind> kinds_of(const Family& family) {
   const bool dense = family.floor(1).map_of_spheres;
   std::vector<Kind> kinds{{family.name, false, false, dense, 0}};
@@ -141,10 +71,17 @@ std::vector<Kind> kinds_of(const Family& family) {
   return kinds;
 }
 
-simulation::Building now(const Kind& kind, const TestFloorConfig& config) {
-  if (kind.changed) return later(config);
-  const TestFloorConfig there = kind.foreign ? elsewhere(config) : config;
-  return make_floor(there.wing, there.wings);
+void add_figures(const std::string& name, const Tally& tally, std::vector<Figure>& figures) {
+  const auto add = [&](const char* measure, double value) {
+    figures.push_back({"six kinds of floors", name, measure, value});
+  };
+  add("asked", tally.asked);
+  add("tracking_right", tally.tracking_right);
+  add("tracking_wrong", tally.tracking_wrong);
+  add("ambiguous", tally.ambiguous);
+  add("ambiguous_and_right_listed", tally.ambiguous_listed);
+  add("lost", tally.lost);
+  add("highest_probability_of_a_wrong_one", tally.most_of_wrong);
 }
 
 class Bench {
@@ -177,7 +114,7 @@ class Bench {
     const auto show = [&](const std::map<std::string, Tally>& tallies, const char* what) {
       for (const auto& [name, tally] : tallies) {
         tally.print(name + what);
-        tally.add_figures(name + what, figures);
+        add_figures(name + what, tally, figures);
       }
     };
     show(singles_, "");
@@ -191,18 +128,13 @@ class Bench {
  private:
   void singles(const Kind& kind, const TestFloor& floor, const simulation::Building& building,
                matching::Localiser& localiser, int seed) {
-    simulation::Random random(4711, static_cast<std::uint64_t>(seed));
-    for (int i = 0; i < scans_;) {
-      const Pose2 truth = free_pose(floor, random);
-      if (building.clearance_m({truth.x_m, truth.y_m}, 0.05, 1.0) < 0.35) continue;
-      const auto noise = static_cast<std::uint64_t>(1'000'000 + i);
-      const Cloud scan = kind.dense ? sphere_scan_at(building, truth, 64'000, kind.people, noise)
-                                    : scan_at(building, truth, kind.people, noise);
+    const auto queries = scans_about(kind, floor, building, scans_, seed);
+    for (int i = 0; i < scans_; ++i) {
+      const auto& [scan, truth] = queries[static_cast<std::size_t>(i)];
       const matching::Localisation result = localiser.locate(scan);
       singles_[kind.name].add(result, truth, kind.foreign);
       reliability_.add(result.confidence, right_mode(result, truth, kind.foreign) == 0);
       if (modes_.is_open()) write(kind, seed, i, result, truth);
-      ++i;
     }
   }
 

@@ -113,6 +113,12 @@ TestFloorConfig floor_60_40(int seed) { return floor_of("60 x 40 m", seed, 60.0,
 
 TestFloorConfig floor_16_13(int seed) { return floor_of("16 x 13 m", seed, 16.0, 13.2, 4, 1); }
 
+TestFloorConfig few_scans_floor(int seed) {
+  TestFloorConfig config = floor_16_13(seed);
+  config.map_scan_spacing_m = 2.5;
+  return config;
+}
+
 TestFloorConfig floor_200_150(int seed) {
   return floor_of("200 x 150 m", seed, 200.0, 13.5, 66, 11);
 }

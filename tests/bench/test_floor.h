@@ -32,6 +32,9 @@ TestFloorConfig floor_60_40(int seed);
 /// 16 x 13 m: one wing of four rooms, for a quick run.
 TestFloorConfig floor_16_13(int seed);
 
+/// The same with one map scan for each 6 m2.
+TestFloorConfig few_scans_floor(int seed);
+
 /// 200 x 150 m: eleven wings of 200 x 13.6 m, 66 rooms each; about 30,000 map scans.
 TestFloorConfig floor_200_150(int seed);
 
