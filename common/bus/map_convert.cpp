@@ -78,12 +78,14 @@ MapBlocks to_messages(const OccupancyMap& map, const ChangedBlocks& positions) {
 
 AppliedChange apply(const MapChange& change, OccupancyMap& map) {
   AppliedChange applied{.replaced = change.is_whole(), .grown = {}};
+  applied.grown.from = map.revision();
   if (applied.replaced)
     map = {VoxelMap(change.resolution.occupied_m), VoxelMap(change.resolution.passed_m)};
   const bool occupied_grew =
                  set_blocks(change.blocks.occupied, map.occupied, applied.grown.occupied),
              passed_grew = set_blocks(change.blocks.passed, map.passed, applied.grown.passed);
   applied.replaced |= !occupied_grew || !passed_grew;
+  applied.grown.to = map.revision();
   return applied;
 }
 

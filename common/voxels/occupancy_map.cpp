@@ -29,6 +29,7 @@ ChangedBlocks add_scan(const Cloud& cloud_base, const Pose3& T_map_base, double 
   const double resolution_m = map.occupied.resolution_m();
   const double passed_resolution_m = map.passed.resolution_m();
   ChangedBlocks changed;
+  changed.from = map.revision();
   ScanCells passed;
   for (std::size_t i = 0; i < cloud_base.points.size(); ++i) {
     const Eigen::Vector3f &point = cloud_base.points[i], origin = cloud_base.origin(i);
@@ -48,6 +49,7 @@ ChangedBlocks add_scan(const Cloud& cloud_base, const Pose3& T_map_base, double 
   passed.move_to(map.passed, changed.passed);
   sort_once(changed.occupied);
   sort_once(changed.passed);
+  changed.to = map.revision();
   return changed;
 }
 

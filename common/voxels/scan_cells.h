@@ -2,9 +2,9 @@
 
 #include <array>
 #include <memory>
-#include <unordered_map>
 #include <vector>
 
+#include "voxlist/voxels/numbering.h"
 #include "voxlist/voxels/voxel_map.h"
 
 namespace voxlist {
@@ -19,8 +19,8 @@ class ScanCells {
         std::uint64_t{1} << ((cell.x & 7) + 8 * (cell.y & 7));
   }
 
-  /// Puts the cells into a map and appends the blocks that this changed, each once, in no order.
-  /// None are left here.
+  /// Puts the cells into a map and appends the blocks that this changed, each once, tile by
+  /// tile in the order in which they were met. No cells are left here.
   void move_to(VoxelMap& map, std::vector<Voxel>& changed);
 
   /// Bytes held: 32 kB a tile.
@@ -29,10 +29,6 @@ class ScanCells {
  private:
   // 8 x 8 x 8 blocks, x fastest.
   using Tile = std::array<VoxelBlock, 512>;
-
-  struct Hash {
-    std::size_t operator()(const Voxel& tile) const;
-  };
 
   static std::size_t block_in_tile(const Voxel& cell) {
     return static_cast<std::size_t>((cell.x >> 3 & 7) | (cell.y & 0x38) | (cell.z & 0x38) << 3);
@@ -44,7 +40,8 @@ class ScanCells {
 
   void go_to_tile_of(const Voxel& cell);
 
-  std::unordered_map<Voxel, std::unique_ptr<Tile>, Hash> tiles_;
+  Numbering<Voxel> positions_;  // of tiles, in their own edges
+  std::vector<std::unique_ptr<Tile>> tiles_;
   // The tile that was marked last, and a cell in it.
   Tile* last_tile_ = nullptr;
   Voxel last_;

@@ -1,28 +1,17 @@
 #include "voxlist/voxels/voxel_map.h"
 
 #include <algorithm>
+#include <atomic>
 #include <numeric>
 #include <stdexcept>
 
 namespace voxlist {
 namespace {
 
-constexpr std::int32_t kFree = -1;
-constexpr std::size_t kFirstDirectorySize = 1024;
-
-// Finaliser of splitmix64: every input bit reaches every output bit.
-std::uint64_t mix(std::uint64_t value) {
-  value = (value ^ (value >> 30)) * 0xbf58476d1ce4e5b9u;
-  value = (value ^ (value >> 27)) * 0x94d049bb133111ebu;
-  return value ^ (value >> 31);
-}
-
-// Block coordinates fit 20 bits (kVoxelLimit / 8), so the packing is one to one.
-std::uint64_t pack(const Voxel& block) {
-  const auto part = [](std::int32_t value) {
-    return static_cast<std::uint64_t>(value + (1 << 20)) & 0x1fffff;
-  };
-  return part(block.x) | part(block.y) << 21 | part(block.z) << 42;
+// One count for all maps: a map that takes another's place is told apart, too.
+std::uint64_t next_revision() {
+  static std::atomic<std::uint64_t> last{0};
+  return last.fetch_add(1, std::memory_order_relaxed) + 1;
 }
 
 std::size_t voxels_in(const VoxelBlock& block) {
@@ -36,8 +25,7 @@ std::uint64_t bit_of(const Voxel& v) { return std::uint64_t{1} << ((v.x & 7) + 8
 
 }  // namespace
 
-VoxelMap::VoxelMap(double resolution_m)
-    : resolution_m_(resolution_m), directory_(kFirstDirectorySize, kFree) {
+VoxelMap::VoxelMap(double resolution_m) : resolution_m_(resolution_m), revision_(next_revision()) {
   if (!(resolution_m > 0.0)) throw std::invalid_argument("VoxelMap: resolution must be above 0 m");
 }
 
@@ -47,6 +35,7 @@ bool VoxelMap::insert(const Voxel& voxel) {
   if (word & bit) return false;
   word |= bit;
   ++size_;
+  revision_ = next_revision();
   return true;
 }
 
@@ -55,6 +44,7 @@ bool VoxelMap::set_block(const Voxel& block, const VoxelBlock& bits) {
   if (held == bits) return false;
   size_ = size_ - voxels_in(held) + voxels_in(bits);
   held = bits;
+  revision_ = next_revision();
   return true;
 }
 
@@ -63,8 +53,10 @@ bool VoxelMap::merge_block(const Voxel& block, const VoxelBlock& bits) {
   const std::size_t before = voxels_in(held);
   for (std::size_t i = 0; i < held.size(); ++i) held[i] |= bits[i];
   const std::size_t news = voxels_in(held) - before;
+  if (news == 0) return false;
   size_ += news;
-  return news > 0;
+  revision_ = next_revision();
+  return true;
 }
 
 bool VoxelMap::contains(const Voxel& voxel) const {
@@ -73,57 +65,45 @@ bool VoxelMap::contains(const Voxel& voxel) const {
 }
 
 const VoxelBlock* VoxelMap::find_block(const Voxel& block) const {
-  const std::int32_t index = directory_[slot_of(block)];
-  return index == kFree ? nullptr : &blocks_[static_cast<std::size_t>(index)];
+  const std::uint32_t number = positions_.find(block);
+  return number == Numbering<Voxel>::kNone ? nullptr : &blocks_[number];
 }
 
 std::size_t VoxelMap::memory_bytes() const {
-  return directory_.capacity() * sizeof(std::int32_t) + positions_.capacity() * sizeof(Voxel) +
-         blocks_.capacity() * sizeof(VoxelBlock);
+  return positions_.memory_bytes() + blocks_.capacity() * sizeof(VoxelBlock);
+}
+
+std::optional<VoxelBox> VoxelMap::bounds() const {
+  if (blocks_.empty()) return std::nullopt;
+  Voxel low = positions_.key(0), high = low;
+  for (const Voxel& at : positions_.keys()) {
+    low = {std::min(low.x, at.x), std::min(low.y, at.y), std::min(low.z, at.z)};
+    high = {std::max(high.x, at.x), std::max(high.y, at.y), std::max(high.z, at.z)};
+  }
+  const auto first = [](std::int32_t block) { return block * kBlockEdge; };
+  const auto last = [&](std::int32_t block) { return first(block) + kBlockEdge - 1; };
+  return VoxelBox{{first(low.x), first(low.y), first(low.z)},
+                  {last(high.x), last(high.y), last(high.z)}};
 }
 
 std::uint64_t VoxelMap::hash() const {
   std::vector<std::size_t> order(blocks_.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(),
-            [&](auto a, auto b) { return positions_[a] < positions_[b]; });
-  std::uint64_t hash = mix(std::bit_cast<std::uint64_t>(resolution_m_));
+            [&](auto a, auto b) { return positions_.key(a) < positions_.key(b); });
+  std::uint64_t hash = mixed(std::bit_cast<std::uint64_t>(resolution_m_));
   for (const std::size_t i : order) {
     if (blocks_[i] == VoxelBlock{}) continue;
-    hash = mix(hash ^ pack(positions_[i]));
-    for (const std::uint64_t word : blocks_[i]) hash = mix(hash ^ word);
+    hash = mixed(hash ^ key_of(positions_.key(i)));
+    for (const std::uint64_t word : blocks_[i]) hash = mixed(hash ^ word);
   }
   return hash;
 }
 
-std::size_t VoxelMap::slot_of(const Voxel& block) const {
-  const std::size_t mask = directory_.size() - 1;
-  std::size_t slot = mix(pack(block)) & mask;
-  while (directory_[slot] != kFree &&
-         positions_[static_cast<std::size_t>(directory_[slot])] != block) {
-    slot = (slot + 1) & mask;
-  }
-  return slot;
-}
-
 VoxelBlock& VoxelMap::find_or_add(const Voxel& block) {
-  std::size_t slot = slot_of(block);
-  if (directory_[slot] == kFree) {
-    if (2 * (blocks_.size() + 1) > directory_.size()) {
-      grow_directory();
-      slot = slot_of(block);
-    }
-    directory_[slot] = static_cast<std::int32_t>(blocks_.size());
-    positions_.push_back(block);
-    blocks_.emplace_back();
-  }
-  return blocks_[static_cast<std::size_t>(directory_[slot])];
-}
-
-void VoxelMap::grow_directory() {
-  directory_.assign(2 * directory_.size(), kFree);
-  for (std::size_t i = 0; i < blocks_.size(); ++i)
-    directory_[slot_of(positions_[i])] = static_cast<std::int32_t>(i);
+  const std::uint32_t number = positions_.number(block);
+  if (number == blocks_.size()) blocks_.emplace_back();
+  return blocks_[number];
 }
 
 }  // namespace voxlist

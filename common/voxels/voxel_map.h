@@ -3,8 +3,10 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "voxlist/voxels/numbering.h"
 #include "voxlist/voxels/voxel.h"
 
 namespace voxlist {
@@ -18,8 +20,15 @@ inline constexpr std::int32_t kBlockEdge = 8;
 /// The block that holds a voxel.
 inline Voxel block_of(const Voxel& v) { return {v.x >> 3, v.y >> 3, v.z >> 3}; }
 
-/// A set of occupied voxels for fast insertion and look-up: a hash directory of 64-byte blocks that
-/// grows with the map. About 4 bytes per voxel at 0.02 m. Reading from several threads at once is
+/// A box of voxels, both corners included.
+struct VoxelBox {
+  Voxel lowest, highest;
+
+  bool operator==(const VoxelBox&) const = default;
+};
+
+/// A set of occupied voxels for fast insertion and look-up: numbered blocks of 64 bytes. About 4
+/// bytes per voxel at 0.02 m. Reading from several threads at once is
 /// safe; writing is not.
 class VoxelMap {
  public:
@@ -45,15 +54,22 @@ class VoxelMap {
   std::size_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
 
+  /// The box of the map's blocks; none without blocks. Looks at every block.
+  std::optional<VoxelBox> bounds() const;
+
+  /// Tells states apart: after each change the number is another one, which no other map has had,
+  /// replaced maps included. Copies share it, as they hold the same.
+  std::uint64_t revision() const { return revision_; }
+
   /// Number of blocks; block i lies at block_position(i). In order of insertion.
   std::size_t block_count() const { return blocks_.size(); }
-  const Voxel& block_position(std::size_t i) const { return positions_[i]; }
+  const Voxel& block_position(std::size_t i) const { return positions_.key(i); }
   const VoxelBlock& block(std::size_t i) const { return blocks_[i]; }
 
   /// The block at a position (block coordinates), or nullptr when nothing was ever put there.
   const VoxelBlock* find_block(const Voxel& block) const;
 
-  /// Bytes held by directory and blocks.
+  /// Bytes held by the blocks and the numbering of their positions.
   std::size_t memory_bytes() const;
 
   /// A number that depends on the set of voxels and the resolution alone, not on the order of
@@ -63,7 +79,8 @@ class VoxelMap {
   /// Calls visit(Voxel) for every occupied voxel, block by block.
   template <class Visit>
   void for_each_voxel(Visit&& visit) const {
-    for (std::size_t i = 0; i < blocks_.size(); ++i) visit_block(positions_[i], blocks_[i], visit);
+    for (std::size_t i = 0; i < blocks_.size(); ++i)
+      visit_block(positions_.key(i), blocks_[i], visit);
   }
 
   /// Calls visit(Voxel) for every set bit of one block.
@@ -79,15 +96,13 @@ class VoxelMap {
   }
 
  private:
-  std::size_t slot_of(const Voxel& block) const;
   VoxelBlock& find_or_add(const Voxel& block);
-  void grow_directory();
 
   double resolution_m_;
   std::size_t size_ = 0;
-  std::vector<Voxel> positions_;
-  std::vector<VoxelBlock> blocks_;
-  std::vector<std::int32_t> directory_;  // open addressing, power of two; index into blocks_ or -1
+  std::uint64_t revision_;
+  Numbering<Voxel> positions_;
+  std::vector<VoxelBlock> blocks_;  // by number of their position
 };
 
 }  // namespace voxlist

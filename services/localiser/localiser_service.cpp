@@ -74,10 +74,7 @@ void LocaliserService::take_map(const map_update_t& message) {
   const auto before = assembler_.held();
   for (const bus::MapChange& change : assembler_.add(message)) {
     const bus::AppliedChange applied = bus::apply(change, map_);
-    if (applied.replaced)
-      localiser_.map_changed();
-    else
-      localiser_.map_grew(applied.grown);
+    if (!applied.replaced) localiser_.map_grew(applied.grown);
   }
   const auto& held = assembler_.held();
   if (held && before && held->map_id != before->map_id) {

@@ -95,6 +95,42 @@ TEST(VoxelMap, FindsBlocksByPosition) {
   EXPECT_EQ(map.find_block({0, 1, 2}), nullptr);
 }
 
+TEST(VoxelMap, BoundsAreThoseOfItsBlocks) {
+  VoxelMap map;
+  EXPECT_EQ(map.bounds(), std::nullopt);
+  map.insert({-1, 9, 16});
+  EXPECT_EQ(map.bounds(), (VoxelBox{{-8, 8, 16}, {-1, 15, 23}}));
+  map.insert({100, -20, 17});
+  EXPECT_EQ(map.bounds(), (VoxelBox{{-8, -24, 16}, {103, 15, 23}}));
+}
+
+TEST(VoxelMap, RevisionIsAnotherOneAfterEachChangeAndOnlyThen) {
+  VoxelMap map;
+  std::set<std::uint64_t> seen{map.revision()};
+  const auto is_new = [&] { return seen.insert(map.revision()).second; };
+  EXPECT_TRUE(map.insert({1, 2, 3}) && is_new());
+  EXPECT_TRUE(map.set_block({0, 0, 0}, {1}) && is_new());
+  EXPECT_TRUE(map.merge_block({0, 0, 0}, {2}) && is_new());
+  EXPECT_FALSE(map.insert({0, 0, 0}) || is_new());
+  EXPECT_FALSE(map.set_block({0, 0, 0}, {3}) || is_new());
+  EXPECT_FALSE(map.merge_block({0, 0, 0}, {1}) || is_new());
+}
+
+TEST(VoxelMap, RevisionTellsAMapFromTheOneThatTakesItsPlace) {
+  VoxelMap map;
+  map.insert({1, 2, 3});
+  const VoxelMap before = map;
+  EXPECT_EQ(map.revision(), before.revision());
+  map.insert({2, 2, 3});
+  const std::uint64_t changed = map.revision();
+  map = before;
+  EXPECT_EQ(map.revision(), before.revision()) << "it holds the same again";
+  map.insert({3, 2, 3});
+  EXPECT_NE(map.revision(), changed);
+  map = VoxelMap(0.04);
+  EXPECT_NE(map.revision(), VoxelMap(0.02).revision());
+}
+
 TEST(VoxelMap, RefusesAResolutionOfZero) { EXPECT_THROW(VoxelMap(0.0), std::invalid_argument); }
 
 }  // namespace

@@ -3,31 +3,11 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
 
 namespace voxlist::matching {
 namespace {
 
 constexpr std::int32_t kCellsInLayer = 2;
-
-struct Bounds {
-  Voxel low, high;
-};
-
-// Lowest and highest voxel of the map's blocks.
-Bounds bounds(const VoxelMap& map) {
-  constexpr std::int32_t kFar = std::numeric_limits<std::int32_t>::max();
-  Bounds b{{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
-  for (std::size_t i = 0; i < map.block_count(); ++i) {
-    const Voxel& v = map.block_position(i);
-    b.low = {std::min(b.low.x, v.x), std::min(b.low.y, v.y), std::min(b.low.z, v.z)};
-    b.high = {std::max(b.high.x, v.x), std::max(b.high.y, v.y), std::max(b.high.z, v.z)};
-  }
-  const std::int32_t last = kBlockEdge - 1;
-  return {
-      {b.low.x * kBlockEdge, b.low.y * kBlockEdge, b.low.z * kBlockEdge},
-      {b.high.x * kBlockEdge + last, b.high.y * kBlockEdge + last, b.high.z * kBlockEdge + last}};
-}
 
 std::int32_t voxels_in_cell(const VoxelMap& map, double cell_m) {
   return static_cast<std::int32_t>(std::lround(cell_m / map.resolution_m()));
@@ -61,7 +41,7 @@ std::int32_t TolerantMap::layer(double z_m) const {
 }
 
 void TolerantMap::measure(const VoxelMap& map, double cell_m) {
-  const auto [low, high] = bounds(map);
+  const auto [low, high] = map.bounds().value();
   const std::int32_t factor = voxels_in_cell(map, cell_m);
   // One cell more on each side for the faces, and room for the last cells' windows.
   const auto first = [&](std::int32_t v) { return floor_div(v, factor) - 1; };

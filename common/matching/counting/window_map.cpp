@@ -5,6 +5,8 @@
 #include <limits>
 #include <new>
 
+#include "voxlist/system/check.h"
+
 namespace voxlist::matching {
 namespace {
 
@@ -27,12 +29,9 @@ CellRectangle widened(const CellRectangle& r, std::int32_t by) {
   return {r.low_x - by, r.low_y - by, r.end_x + by, r.end_y + by};
 }
 
-// Of the patch that holds a cell.
-std::uint64_t patch_key(std::int32_t x, std::int32_t y) {
-  const auto part = [](std::int32_t v) {
-    return std::uint64_t{static_cast<std::uint32_t>(floor_div(v, kPatch))};
-  };
-  return part(x) << 32 | part(y);
+// The position of the patch that holds a cell.
+Voxel patch_of(std::int32_t x, std::int32_t y) {
+  return {floor_div(x, kPatch), floor_div(y, kPatch), 0};
 }
 
 // What a block occupies, from the column before it to the one behind (a byte each) and from the row
@@ -52,27 +51,28 @@ std::uint32_t occupied_cells(const VoxelBlock& bits) {
 }  // namespace
 
 void WindowMap::hold(const CellRectangle& needed) {
+  VOXLIST_CHECK(map_.revision() == revision_, "the map has changed and map_grew() was not called");
   list_new_blocks();
   // Blocks near by mark cells of a patch too.
   const CellRectangle around = whole_patches(widened(needed, kPatch));
   if (!columns_ || !ground_.holds(around)) make_room(widened(around, kMore));
   for (std::int32_t y = around.low_y; y < around.end_y; y += kPatch) {
     for (std::int32_t x = around.low_x; x < around.end_x; x += kPatch) {
-      const auto found = patches_.find(patch_key(x, y));
-      if (found == patches_.end() || found->second.ready) continue;
-      for (const std::uint32_t i : found->second.blocks)
-        mark(map_.block_position(i), map_.block(i));
-      found->second.ready = true;
+      Patch* patch = find_patch(x, y);
+      if (!patch || patch->ready) continue;
+      for (const std::uint32_t i : patch->blocks) mark(map_.block_position(i), map_.block(i));
+      patch->ready = true;
     }
   }
 }
 
 void WindowMap::map_grew(const std::vector<Voxel>& blocks) {
+  revision_ = map_.revision();
   list_new_blocks();
   if (!columns_) return;
   for (const Voxel& position : blocks) {
-    const auto patch = patches_.find(patch_key(2 * position.x, 2 * position.y));
-    if (patch == patches_.end() || !patch->second.ready) continue;
+    const Patch* patch = find_patch(2 * position.x, 2 * position.y);
+    if (!patch || !patch->ready) continue;
     if (const VoxelBlock* block = map_.find_block(position)) mark(position, *block);
   }
 }
@@ -94,20 +94,22 @@ WindowMap::Count WindowMap::count(const CellRectangle& rectangle) const {
   return {std::int64_t{end - lowest} * (r.end_x - r.low_x) * (r.end_y - r.low_y), occupied};
 }
 
+WindowMap::Patch* WindowMap::find_patch(std::int32_t x, std::int32_t y) {
+  const std::uint32_t number = patch_positions_.find(patch_of(x, y));
+  return number == Numbering<Voxel>::kNone ? nullptr : &patches_[number];
+}
+
 // A map numbers its blocks as they come.
 void WindowMap::list_new_blocks() {
-  std::uint64_t last_key = 0;
-  Patch* last = nullptr;
   for (; listed_ < map_.block_count(); ++listed_) {
     const Voxel& block = map_.block_position(listed_);
     const std::int32_t x = 2 * block.x, y = 2 * block.y;
-    const std::uint64_t key = patch_key(x, y);
-    if (!last || key != last_key) last = &patches_[key];
-    last_key = key;
-    if (last->blocks.empty()) last->lowest_z = last->highest_z = block.z;
-    last->lowest_z = std::min(last->lowest_z, block.z);
-    last->highest_z = std::max(last->highest_z, block.z);
-    last->blocks.push_back(static_cast<std::uint32_t>(listed_));
+    const std::uint32_t number = patch_positions_.number(patch_of(x, y));
+    if (number == patches_.size()) patches_.push_back({{}, block.z, block.z});
+    Patch& patch = patches_[number];
+    patch.lowest_z = std::min(patch.lowest_z, block.z);
+    patch.highest_z = std::max(patch.highest_z, block.z);
+    patch.blocks.push_back(static_cast<std::uint32_t>(listed_));
     const bool room_enough = block.z >= lowest_z_ && block.z < lowest_z_ + size_z_;
     if (!room_enough && ground_.holds({x, y, x + 1, y + 1})) columns_.reset();
   }
@@ -121,7 +123,7 @@ void WindowMap::make_room(const CellRectangle& ground) {
   size_y_ = ground.end_y + kMargin - low_y_;
   std::int32_t highest = std::numeric_limits<std::int32_t>::min(),
                lowest = std::numeric_limits<std::int32_t>::max();
-  for (auto& [key, patch] : patches_) {
+  for (Patch& patch : patches_) {
     patch.ready = false;
     const Voxel& block = map_.block_position(patch.blocks.front());
     if (!ground.holds({2 * block.x, 2 * block.y, 2 * block.x + 1, 2 * block.y + 1})) continue;

@@ -4,9 +4,9 @@
 #include <cstdlib>
 #include <cstring>
 #include <memory>
-#include <unordered_map>
 #include <vector>
 
+#include "voxlist/voxels/numbering.h"
 #include "voxlist/voxels/voxel_map.h"
 
 namespace voxlist::matching {
@@ -30,14 +30,14 @@ class WindowMap {
   static constexpr std::int32_t kTile = 8;
 
   /// The map must outlive it.
-  explicit WindowMap(const VoxelMap& map) : map_(map) {}
+  explicit WindowMap(const VoxelMap& map) : map_(map), revision_(map.revision()) {}
 
   /// Makes a rectangle of the ground ready. Costs little where most of it is already (about 20 us
   /// for a square of 2.5 m that is new), and sometimes the whole rectangle, when the robot has gone
   /// far. Places from before must not be used any more.
   void hold(const CellRectangle& needed);
 
-  /// These blocks of the map have gained voxels.
+  /// To be called when these blocks of the map have gained voxels, and none have lost any.
   void map_grew(const std::vector<Voxel>& blocks);
 
   static double cell_m(const VoxelMap& map) { return map.resolution_m() * kBlockEdge / 2; }
@@ -83,14 +83,17 @@ class WindowMap {
     void operator()(std::uint8_t* bytes) const { std::free(bytes); }
   };
 
+  Patch* find_patch(std::int32_t x, std::int32_t y);
   void list_new_blocks();
   void make_room(const CellRectangle& ground);
   void mark(const Voxel& block, const VoxelBlock& bits);
   std::size_t counter_of(std::int32_t x, std::int32_t y, std::int32_t z) const;
 
   const VoxelMap& map_;
-  std::size_t listed_ = 0;  // blocks
-  std::unordered_map<std::uint64_t, Patch> patches_;
+  std::uint64_t revision_;  // of the map, when it was last told of
+  std::size_t listed_ = 0;  // blocks of the map that patches know of
+  Numbering<Voxel> patch_positions_;
+  std::vector<Patch> patches_;
   CellRectangle ground_;  // that there is room for
   std::int32_t low_x_ = 0, low_y_ = 0, size_x_ = 0, size_y_ = 0, lowest_z_ = 0, size_z_ = 0;
   std::unique_ptr<std::uint8_t[], Free> columns_;

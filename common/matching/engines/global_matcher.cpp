@@ -5,6 +5,7 @@
 #include "voxlist/matching/engines/match_modes.h"
 #include "voxlist/matching/search/map_density.h"
 #include "voxlist/matching/search/overlap_peak.h"
+#include "voxlist/system/check.h"
 
 namespace voxlist::matching {
 namespace {
@@ -19,9 +20,11 @@ constexpr std::size_t kFewPoints = 400;
 
 GlobalMatcher::GlobalMatcher(const OccupancyMap& map, const SurfelMap& surfels,
                              const MatcherConfig& config)
-    : map_(map), surfels_(surfels), config_(config) {}
+    : map_(map), surfels_(surfels), config_(config), revision_(map.revision()) {}
 
 Match GlobalMatcher::match(const Cloud& cloud, double mode_ratio) {
+  VOXLIST_CHECK(map_.revision() == revision_,
+                "the map has changed and map_changed() was not called");
   const GlobalMap& map = map_for(reach_m(cloud.points));
   const auto scan =
       map.choose_points(cloud.points, static_cast<std::size_t>(config_.search_points));
@@ -62,6 +65,7 @@ Match GlobalMatcher::match(const Cloud& cloud, double mode_ratio) {
 }
 
 void GlobalMatcher::map_changed() {
+  revision_ = map_.revision();
   maps_.clear();
   evidence_.reset();
   closed_cell_m_.reset();

@@ -37,6 +37,7 @@ class GlobalMatcher {
   const OccupancyMap& map_;
   const SurfelMap& surfels_;
   const MatcherConfig config_;
+  MapRevision revision_;  // of the map that the members below were made of
   std::optional<EvidenceMap> evidence_;
   std::optional<double> closed_cell_m_;
   std::map<double, std::unique_ptr<const GlobalMap>> maps_;  // by reach

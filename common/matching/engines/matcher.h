@@ -96,7 +96,8 @@ class Matcher {
 };
 
 /// Makes the map ready for matching, each part when it is first needed. The map must outlive the
-/// matcher; when it changes but by growing, make another one. Use the matcher from one thread.
+/// matcher; after a change that map_grew() was not told of, make another one (debug builds abort
+/// where one is missed; Localiser does it by itself). Use the matcher from one thread.
 /// Throws std::invalid_argument on an unknown engine.
 std::unique_ptr<Matcher> make_matcher(const OccupancyMap& map, const MatcherConfig& config);
 

@@ -39,7 +39,7 @@ const char* name(LocalisationState state) {
 }
 
 Localiser::Localiser(const OccupancyMap& map, const LocaliserConfig& config)
-    : map_(map), config_(config) {
+    : map_(map), config_(config), revision_(map.revision()) {
   if (map_.empty())
     make_matcher(map_,
                  config_.matcher);  // complains about a wrong engine now, not at the first cloud
@@ -47,14 +47,18 @@ Localiser::Localiser(const OccupancyMap& map, const LocaliserConfig& config)
 
 Localiser::~Localiser() = default;
 
-void Localiser::map_changed() {
-  matcher_.reset();
-  evidence_.reset();
-}
-
 void Localiser::map_grew(const ChangedBlocks& grown) {
+  if (grown.from != revision_) return;  // follow_map() will see to all changes
+  revision_ = grown.to;
   if (matcher_) matcher_->map_grew(grown);
   if (evidence_) evidence_->map_grew(grown);
+}
+
+void Localiser::follow_map() {
+  if (map_.revision() == revision_) return;
+  revision_ = map_.revision();
+  matcher_.reset();
+  evidence_.reset();
 }
 
 void Localiser::forget() {
@@ -77,6 +81,7 @@ const EvidenceMap& Localiser::evidence() {
 }
 
 Localisation Localiser::localise(const Cloud& cloud, const std::optional<Pose2>& T_odom_base) {
+  follow_map();
   if (!map_.empty() && track_) {
     if (const auto tracked = track(cloud, T_odom_base)) return *tracked;
     track_.reset();
@@ -99,6 +104,7 @@ Localisation Localiser::localise(const Cloud& cloud, const std::optional<Pose2>&
 }
 
 Localisation Localiser::locate(const Cloud& cloud) {
+  follow_map();
   return LostSearch(config_.matcher, limits()).add(cloud, std::nullopt, matcher(), evidence());
 }
 

@@ -39,16 +39,13 @@ struct LocaliserConfig {
 /// clouds' own. Use from one thread.
 class Localiser {
  public:
-  /// The map must outlive the localiser; call map_grew() or map_changed() after each change of it.
+  /// The map must outlive the localiser. It may change between two calls: the localiser notices by
+  /// its revision, and the next cloud pays for making it ready anew (tens of milliseconds).
   Localiser(const OccupancyMap& map, const LocaliserConfig& config = {});
   ~Localiser();
 
-  /// The map is another one now, or has lost something. The next cloud pays for making it ready
-  /// (tens of milliseconds).
-  void map_changed();
-
-  /// These blocks of the map have gained something, and none have lost any. The next cloud's
-  /// result is the same as after map_changed(), and comes sooner.
+  /// These blocks of the map have gained something, and none have lost any. Without this call the
+  /// next cloud's result is the same, but comes later.
   void map_grew(const ChangedBlocks& grown);
 
   /// Locates a cloud (in base). `T_odom_base`: odometry's pose at the cloud's time, if there is
@@ -63,6 +60,8 @@ class Localiser {
 
  private:
   MotionLimits limits() const;
+  // Drops what was made of the map when that has changed since.
+  void follow_map();
   Matcher& matcher();
   const EvidenceMap& evidence();
   static Localisation origin(const Cloud& cloud);
@@ -74,6 +73,7 @@ class Localiser {
 
   const OccupancyMap& map_;
   const LocaliserConfig config_;
+  MapRevision revision_;  // of the map that matcher_ and evidence_ were made of
   std::unique_ptr<Matcher> matcher_;
   std::unique_ptr<EvidenceMap> evidence_;
   std::unique_ptr<PoseTrack> track_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "voxlist/system/check.h"
 #include "voxlist/voxels/fast_cell.h"
 #include "voxlist/voxels/numbering.h"
 
@@ -41,13 +42,9 @@ struct Walker {
 
 // Blocks of the map, 2^shift of them a cell: as few as keep the cells within bounds.
 BitGrid filled_cells(const VoxelMap& map, int& shift) {
-  if (map.block_count() == 0) return BitGrid({0, 0, 0}, 1, 1, 1);
-  Voxel low = map.block_position(0), high = low;
-  for (std::size_t i = 0; i < map.block_count(); ++i) {
-    const Voxel& v = map.block_position(i);
-    low = {std::min(low.x, v.x), std::min(low.y, v.y), std::min(low.z, v.z)};
-    high = {std::max(high.x, v.x), std::max(high.y, v.y), std::max(high.z, v.z)};
-  }
+  const std::optional<VoxelBox> bounds = map.bounds();
+  if (!bounds) return BitGrid({0, 0, 0}, 1, 1, 1);
+  const Voxel low = block_of(bounds->lowest), high = block_of(bounds->highest);
   constexpr double kMostCells = 1 << 29;
   const auto size = [&](std::int32_t a, std::int32_t b) { return (b >> shift) - (a >> shift) + 1; };
   for (shift = 0;
@@ -132,10 +129,13 @@ std::vector<EvidenceRay> choose_evidence_rays(const Cloud& scan, std::size_t mos
 
 EvidenceMap::EvidenceMap(const OccupancyMap& map, double reach_m)
     : map_(map),
+      revision_(map.revision()),
       reach_(static_cast<std::int32_t>(std::lround(reach_m / map.occupied.resolution_m()))),
       filled_(filled_cells(map.occupied, shift_)) {}
 
 void EvidenceMap::map_grew(const ChangedBlocks& grown) {
+  VOXLIST_CHECK(grown.from == revision_, "map_grew() was not called for an earlier change");
+  revision_ = grown.to;
   for (const Voxel& block : grown.occupied) {
     const Voxel cell = cell_of(block);
     filled_.set(cell);
@@ -151,6 +151,7 @@ Voxel EvidenceMap::cell_of(const Voxel& block) const {
 }
 
 Evidence EvidenceMap::at(const Pose2& pose, const std::vector<EvidenceRay>& rays) const {
+  VOXLIST_CHECK(map_.revision() == revision_, "the map has changed and map_grew() was not called");
   Evidence sum;
   const double c = std::cos(pose.yaw_rad), s = std::sin(pose.yaw_rad);
   const auto moved = [&](const Eigen::Vector3f& p) {

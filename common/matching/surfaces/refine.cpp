@@ -115,10 +115,10 @@ struct OfSurfel {
 
 template <int kDof>
 std::vector<OfSurfel<kDof>> by_surfel(const std::vector<Held<kDof>>& held) {
-  Numbering numbers(held.size());
+  Numbering<const Surfel*> numbers;
   std::vector<OfSurfel<kDof>> surfels;
   for (const Held<kDof>& h : held) {
-    const auto number = numbers.number(reinterpret_cast<std::uintptr_t>(h.surfel));
+    const auto number = numbers.number(h.surfel);
     if (number == surfels.size()) surfels.emplace_back();
     OfSurfel<kDof>& s = surfels[number];
     // A normal that is off by chance seems to hold directions that nothing holds (a corridor's long

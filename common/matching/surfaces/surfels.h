@@ -5,6 +5,7 @@
 #include <deque>
 #include <vector>
 
+#include "voxlist/voxels/numbering.h"
 #include "voxlist/voxels/occupancy_map.h"
 
 namespace voxlist::matching {
@@ -69,30 +70,28 @@ class SurfelMap {
   const Surfel* find(const Eigen::Vector3d& point, const Eigen::Vector3d& origin,
                      Place& place) const;
 
-  /// The map has changed: cubes are fitted anew when next asked for. (All: a surfel depends on what
-  /// rays passed round its cube, and a scan's rays pass most of what the next scan sees.) Surfels
-  /// that were found before must not be used any more.
+  /// To be called when the map has changed: cubes are fitted anew when next asked for. (All: a
+  /// surfel depends on what rays passed round its cube, and a scan's rays pass most of what the
+  /// next scan sees.) Surfels that were found before must not be used any more.
   void map_changed();
 
  private:
   struct Cube {
-    std::uint64_t key = 0;
     bool fitted = false;
     int count = 0;
     Surfel sides[2];
   };
 
-  std::size_t slot_of(std::uint64_t key) const;
   Cube& cube_at(const Voxel& position) const;
-  void grow() const;
   void fit(const Voxel& position, Cube& cube) const;
 
   const OccupancyMap& map_;
   const SurfelConfig config_;
   std::int32_t blocks_;  // along a cube's edge
   double cubes_per_m_;
-  mutable std::deque<Cube> cubes_;
-  mutable std::vector<std::uint32_t> directory_;  // open addressing; 0: free, else cube + 1
+  MapRevision revision_;  // of the map that the cubes were fitted in
+  mutable Numbering<Voxel> positions_;
+  mutable std::deque<Cube> cubes_;  // by number of their position; a deque, so that they stay
 };
 
 }  // namespace voxlist::matching

@@ -161,22 +161,43 @@ TEST(EvidenceMap, WeighsInAGrownMapAsInANewOne) {
   }
 }
 
-TEST(Localiser, TracksInAGrownMapAsInANewOne) {
+void expect_same_track(const Localisation& a, const Localisation& b) {
+  ASSERT_TRUE(b.tracking());
+  EXPECT_EQ(a.modes.front().T_map_base, b.modes.front().T_map_base);
+  EXPECT_EQ(a.modes.front().covariance, b.modes.front().covariance);
+  EXPECT_EQ(a.significance_log10, b.significance_log10);
+}
+
+TEST(Localiser, TracksInAGrownMapAsInANewOneWhetherItIsToldOrNot) {
   OccupancyMap map;
-  Localiser grown(map), fresh(map);
+  // The second one is never told that the map grew, the third one only now and then.
+  Localiser grown(map), fresh(map), told_of_some(map);
   for (int i = 0; i < 6; ++i) {
     Cloud scan = seen_from(on_the_way(i));
     scan.utime_us = i * 1'000'000;
-    const Localisation a = grown.localise(scan), b = fresh.localise(scan);
+    const Localisation a = grown.localise(scan);
     ASSERT_TRUE(a.tracking());
-    ASSERT_TRUE(b.tracking());
-    EXPECT_EQ(a.modes.front().T_map_base, b.modes.front().T_map_base);
-    EXPECT_EQ(a.modes.front().covariance, b.modes.front().covariance);
-    EXPECT_EQ(a.significance_log10, b.significance_log10);
+    expect_same_track(a, fresh.localise(scan));
+    expect_same_track(a, told_of_some.localise(scan));
     const Pose3 T_map_base = to_pose3(a.modes.front().T_map_base);
-    grown.map_grew(add_scan(scan, T_map_base, 2.5, map));
-    fresh.map_changed();
+    const ChangedBlocks changed = add_scan(scan, T_map_base, 2.5, map);
+    grown.map_grew(changed);
+    if (i % 2 == 1) told_of_some.map_grew(changed);
   }
+}
+
+TEST(Localiser, NoticesThatItsMapWasReplaced) {
+  OccupancyMap map;
+  const Cloud scan = seen_from(on_the_way(0));
+  add_scan(scan, to_pose3(on_the_way(0)), 100.0, map);
+  Localiser localiser(map);
+  EXPECT_FALSE(localiser.locate(scan).modes.empty());
+  map = {VoxelMap(0.04), VoxelMap(kPassedResolution_m)};
+  const Pose2 moved = Pose2{7.0, -3.0, 0.4} * on_the_way(0);
+  add_scan(scan, to_pose3(moved), 100.0, map);
+  const Localisation found = localiser.locate(scan);
+  ASSERT_FALSE(found.modes.empty());
+  EXPECT_LT(distance_m(found.modes.front().T_map_base, moved), 0.05);
 }
 
 }  // namespace
