@@ -38,6 +38,18 @@ function(voxlist_program name)
   target_link_libraries(${name}_program PRIVATE ${library})
 endfunction()
 
+# voxlist_say_where(FILE...): tells those of the files that ask for it where the source and the programs are. Only those:
+# what is compiled the same for two build folders comes from ccache.
+function(voxlist_say_where)
+  foreach(file IN LISTS ARGN)
+    file(STRINGS ${file} asks REGEX "VOXLIST_(SOURCE|BIN)_DIR" LIMIT_COUNT 1)
+    if(asks)
+      set_property(SOURCE ${file} APPEND PROPERTY COMPILE_DEFINITIONS
+        VOXLIST_SOURCE_DIR="${PROJECT_SOURCE_DIR}" VOXLIST_BIN_DIR="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}")
+    endif()
+  endforeach()
+endfunction()
+
 # voxlist_test(FOLDER DEPENDS...): program test_FOLDER from tests/FOLDER, each TEST its own ctest case.
 function(voxlist_test folder)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*.cpp)
@@ -47,7 +59,6 @@ function(voxlist_test folder)
   add_executable(test_${folder} ${sources})
   target_link_libraries(test_${folder} PRIVATE ${ARGN} GTest::gmock GTest::gtest_main)
   target_include_directories(test_${folder} PRIVATE ${PROJECT_SOURCE_DIR})
-  target_compile_definitions(test_${folder} PRIVATE
-    VOXLIST_SOURCE_DIR="${PROJECT_SOURCE_DIR}" VOXLIST_BIN_DIR="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}")
+  voxlist_say_where(${sources})
   gtest_discover_tests(test_${folder} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
 endfunction()
