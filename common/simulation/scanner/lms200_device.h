@@ -37,7 +37,7 @@ using MeasureLine = std::function<LaserLine(std::int64_t utime_us, double first_
 /// A SICK LMS 200 without its case: bytes in, bytes out, each with its time. It answers the whole
 /// command set that a driver needs (31, 32, 3A, 3B, 74, 77, 20 with 00 10 24 25 2A 40 41 42 48,
 /// 30 01, 10), turns at its own rate, and sends at the speed of its line. Its clock is what it is
-/// told, and must not go back.
+/// told. Precondition: times never go back.
 ///
 /// A scan's telegram begins to leave when its mirror has turned past 180 deg: half a turn after its
 /// beam at 0 deg. A scan that is ready while the line is still busy is not sent. In mode 2A each
@@ -117,6 +117,7 @@ class Lms200Device {
 
   Config config_;
   std::int64_t start_utime_us_;
+  std::int64_t now_utime_us_;
   MeasureLine measure_;
   Random random_;
   Lms200Faults faults_;
