@@ -4,6 +4,8 @@
 #include <vector>
 #include <voxlist/voxel_block_t.hpp>
 
+#include "voxlist/system/check.h"
+
 namespace voxlist::bus {
 namespace {
 
@@ -81,6 +83,7 @@ AppliedChange apply(const MapChange& change, OccupancyMap& map) {
   applied.grown.from = map.revision();
   if (applied.replaced)
     map = {VoxelMap(change.resolution.occupied_m), VoxelMap(change.resolution.passed_m)};
+  VOXLIST_CHECK(resolution_of(map) == change.resolution, "the change is of another map");
   const bool occupied_grew =
                  set_blocks(change.blocks.occupied, map.occupied, applied.grown.occupied),
              passed_grew = set_blocks(change.blocks.passed, map.passed, applied.grown.passed);

@@ -23,7 +23,8 @@ struct AppliedChange {
 };
 
 /// Brings a map to the change's version: a whole change replaces it, others set their blocks.
-/// Precondition: the change builds on the map, as MapAssembler sees to.
+/// Precondition: the change builds on the map, so its voxels are as large; MapAssembler hands out
+/// such changes alone.
 AppliedChange apply(const MapChange& change, OccupancyMap& map);
 
 }  // namespace voxlist::bus

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "voxlist/evaluation/association.h"
+#include "voxlist/system/check.h"
 
 namespace voxlist::evaluation {
 namespace {
@@ -148,6 +149,7 @@ ErrorStatistics statistics(std::vector<double> errors) {
 }
 
 Pose2 align(const std::vector<Vector2d>& from, const std::vector<Vector2d>& to) {
+  VOXLIST_CHECK(!from.empty() && from.size() == to.size(), "align() takes pairs of points");
   Vector2d from_mean = Vector2d::Zero(), to_mean = Vector2d::Zero();
   for (std::size_t i = 0; i < from.size(); ++i) {
     from_mean += from[i] / static_cast<double>(from.size());

@@ -10,7 +10,7 @@
 
 namespace voxlist::evaluation {
 
-/// Size of a set of errors, all in their own unit. Of none: count 0 and the rest 0.
+/// Size of a set of errors, in the errors' own unit. All are 0 when there are no errors.
 struct ErrorStatistics {
   std::size_t count = 0;
   double rmse = 0.0;
@@ -39,7 +39,8 @@ struct TrajectoryErrors {
   std::size_t matched = 0;
   std::size_t in_truth = 0;
 
-  /// After the first matched pose was laid onto its truth: what a map that starts there is off.
+  /// Errors after the first matched pose was laid onto its truth: how far a map that starts there
+  /// is off.
   ErrorStatistics anchored_m;
   ErrorStatistics anchored_heading_rad;
   double end_position_m = 0.0;  ///< of the last matched pose
@@ -47,16 +48,16 @@ struct TrajectoryErrors {
   /// The same with heights (the first one anchored too); only where the truth has them.
   std::optional<ErrorStatistics> anchored_3d_m;
 
-  /// After the rigid planar motion that makes the positions' RMSE smallest.
+  /// Errors after the rigid planar motion that makes the positions' RMSE smallest.
   ErrorStatistics aligned_m;
   ErrorStatistics aligned_heading_rad;
   Pose2 T_truth_estimate;  ///< that motion
 
-  /// Of the motion between poses that follow each other in the truth, both matched.
+  /// Errors of the motion between two poses that follow each other in the truth, both matched.
   ErrorStatistics step_m;
   ErrorStatistics step_rad;
 
-  /// Of the motion over each stretch of at least 1 m along the truth, divided by its length.
+  /// Errors of the motion over each stretch of at least 1 m along the truth, divided by its length.
   ErrorStatistics per_metre_m;
   ErrorStatistics per_metre_rad;
 
@@ -73,8 +74,8 @@ struct TrajectoryErrors {
 std::optional<TrajectoryErrors> evaluate(const std::vector<StampedPose3>& estimate,
                                          const io::PoseTable& truth);
 
-/// The rigid planar motion that takes `from` closest to `to` (least squares over corresponding
-/// points, at least one; Umeyama's closed form without scale).
+/// The rigid planar motion that takes `from` closest to `to`: least squares over corresponding
+/// points, Umeyama's closed form without scale. Precondition: as many points in both, at least one.
 Pose2 align(const std::vector<Eigen::Vector2d>& from, const std::vector<Eigen::Vector2d>& to);
 
 /// Both trajectories from above, and below them the position error over time.

@@ -14,13 +14,18 @@ namespace {
 using namespace std::chrono_literals;
 using std::chrono::steady_clock;
 
-constexpr std::size_t kQueue = 225;  // three seconds
+// Lines that may wait for the service: three seconds. Beyond that the oldest is dropped.
+constexpr std::size_t kQueue = 225;
+
+// Longest wait for a line (us), after which stop and report are looked at.
 constexpr std::int64_t kTimeout_us = 50'000;
 
-// Between attempts. A device that came back has to be found within 3 s, and the search takes two.
+// Pause between attempts, doubled each time. A device that came back has to be found within 3 s,
+// and the search itself takes two.
 constexpr auto kShortestPause = 200ms;
 constexpr auto kLongestPause = 1000ms;
 
+// Counters and state go to the service this often, as HEALTH does.
 constexpr auto kReportPeriod = 1s;
 
 int make_event_fd() {
@@ -30,7 +35,7 @@ int make_event_fd() {
 }
 
 const scanner::Lms200Config& checked(const scanner::Lms200Config& config) {
-  if (const std::string wrong = complaint(config); !wrong.empty())
+  if (const std::string wrong = why_invalid(config); !wrong.empty())
     throw std::invalid_argument(wrong);
   return config;
 }
@@ -43,6 +48,12 @@ bus::Counters counters_of(const scanner::Lms200Report& report) {
                             {"clock_jumps", report.clock_jumps}};
   for (const auto& [reason, count] : report.refused) counters["refused/" + reason] = count;
   return counters;
+}
+
+std::int64_t refused_scans(const scanner::Lms200Report& report) {
+  std::int64_t sum = 0;
+  for (const auto& [reason, count] : report.refused) sum += count;
+  return sum;
 }
 
 }  // namespace
@@ -130,23 +141,24 @@ void LaserReader::pass_on(LaserLine line) {
 
 void LaserReader::tell(const scanner::Lms200& driver) {
   const scanner::Lms200Report report = driver.report();
-  bus::Counters before = counters_of(std::exchange(told_, report));
+  const scanner::Lms200Report before = std::exchange(told_, report);
   told_at_ = steady_clock::now();
   const std::lock_guard lock(mutex_);
-  bus::Counters now = counters_of(report);
-  std::int64_t refused = 0;
-  for (auto& [name, count] : now) {
-    if (const auto was = before.find(name); was != before.end()) count -= was->second;
-    if (count != 0) news_.counts[name] += count;
-    if (name.starts_with("refused/")) refused += count;
+  const bus::Counters counted = counters_of(before);
+  for (const auto& [name, count] : counters_of(report)) {
+    const auto was = counted.find(name);
+    const std::int64_t more = count - (was == counted.end() ? 0 : was->second);
+    if (more != 0) news_.counts[name] += more;
   }
   constexpr double kBeams = 181.0;
-  const auto lines = static_cast<double>(std::max<std::int64_t>(now["lines"], 1));
+  const auto lines = static_cast<double>(std::max<std::int64_t>(report.lines - before.lines, 1));
+  const auto dazzled = static_cast<double>(report.dazzled_beams - before.dazzled_beams);
+  const std::int64_t lost = report.lost_scans - before.lost_scans;
   news_.state.polluted = report.polluted;
   news_.state.jitter_us = static_cast<std::int64_t>(report.jitter_us);
-  news_.state.dazzled = static_cast<double>(now["dazzled_beams"]) / (lines * kBeams);
+  news_.state.dazzled = dazzled / (lines * kBeams);
   // The first scans of all are refused as a matter of course.
-  news_.state.lost = before["lines"] > 0 ? now["lost_scans"] + refused : 0;
+  news_.state.lost = before.lines > 0 ? lost + refused_scans(report) - refused_scans(before) : 0;
 }
 
 void LaserReader::tell_connected(const scanner::Lms200& driver) {

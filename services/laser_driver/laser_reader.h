@@ -23,7 +23,7 @@ class LaserReader {
   /// Opens a serial line by its path, or throws PortError.
   using OpenPort = std::function<std::unique_ptr<serial::Port>(const std::string& path)>;
 
-  /// Starts reading. Throws std::invalid_argument with the config's complaint.
+  /// Starts reading. Throws std::invalid_argument when the config is not valid.
   LaserReader(const scanner::Lms200Config& config, OpenPort open);
 
   /// Stops as stop() does.

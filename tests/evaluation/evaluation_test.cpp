@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "voxlist/system/check.h"
+
 namespace voxlist::evaluation {
 namespace {
 
@@ -139,6 +141,12 @@ TEST(Evaluation, OnePoseIsEnoughForAnAnswer) {
   EXPECT_EQ(errors->step_m.count, 0U);
   EXPECT_EQ(evaluation::draw_errors(*errors).width(), 1000);
 }
+
+#if VOXLIST_CHECKS
+TEST(AlignDeathTest, TakesPairsOfPoints) {
+  EXPECT_DEATH(align({{0.0, 0.0}}, {}), "pairs of points");
+}
+#endif
 
 }  // namespace
 }  // namespace voxlist::evaluation

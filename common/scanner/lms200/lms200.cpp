@@ -10,22 +10,27 @@
 namespace voxlist::scanner {
 namespace {
 
-// No good scan for so long is the end of a session, but for lines so slow that some scans take
-// more.
+// A session ends when no good scan came for so long (us): 75 scans at 500 kbaud. On a slow line,
+// where one scan of 372 bytes takes 0.4 s at 9600 baud, it ends after the time of kSilentScans.
 constexpr std::int64_t kSilence_us = 1'000'000;
 constexpr int kSilentScans = 4;
 
-// The clock's arrivals: for so long, and no fewer than so many.
+// The scan clock rests on the arrivals of so long (us), and on no fewer than so many scans. A
+// longer window averages more jitter and follows the motor's drift later.
 constexpr double kWindow_us = 20e6, kWindowScans = 500.0;
 
-// What a damaged and a good scan add to the doubt of the line, and how much is too much.
+// The line is in doubt after damage: the CRC is weak (one shift a byte), so on a bad line a wrong
+// scan can pass it. Each damaged scan adds kDamageDoubt, each good one takes one away, up to
+// kMostDoubt. Doubt grows where more than one scan in 16 is damaged, and from kTooMuchDoubt on
+// scans are refused. A session starts at kMostDoubt, so its first 15 scans are refused.
 constexpr int kDamageDoubt = 15, kGoodDoubt = -1, kTooMuchDoubt = 60, kMostDoubt = 75;
 
-// Time for an answer that nobody needs.
+// Wait (us) for an answer at the end of a session, which nobody reads: only so that the next
+// command is not sent into it.
 constexpr std::int64_t kAnswer_us = 100'000;
 
 const Lms200Config& checked(const Lms200Config& config) {
-  if (const std::string wrong = complaint(config); !wrong.empty())
+  if (const std::string wrong = why_invalid(config); !wrong.empty())
     throw std::invalid_argument(wrong);
   return config;
 }
@@ -70,7 +75,7 @@ std::optional<LaserLine> Lms200::next(std::int64_t timeout_us) {
     if (event->kind != Lms200Event::Kind::kTelegram) continue;
     if (auto line = take(*event)) return line;
   }
-  // Not by the clock alone, which may be set.
+  // Bounded by the timeout, because the clock may be set while it waits.
   silent_us_ += std::clamp<std::int64_t>(link_.now_us() - start_us, 0, timeout_us);
   check_stream();
   return std::nullopt;

@@ -34,7 +34,7 @@ struct Lms200Report {
 /// an exception: begin() again, for ever if need be. Use it from one thread.
 class Lms200 {
  public:
-  /// `port` must outlive it. Throws std::invalid_argument with the config's complaint. Nothing is
+  /// `port` must outlive it. Throws std::invalid_argument when the config is not valid. Nothing is
   /// sent yet.
   Lms200(serial::Port& port, const Lms200Config& config, std::stop_token stop = {});
 

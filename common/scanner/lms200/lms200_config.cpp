@@ -5,7 +5,7 @@
 
 namespace voxlist::scanner {
 
-std::string complaint(const Lms200Config& config) {
+std::string why_invalid(const Lms200Config& config) {
   constexpr std::array kBauds{9600, 19200, 38400, 500000}, kRanges{8, 16, 32, 80};
   constexpr std::array kResolutions{1.0, 0.5, 0.25};
   if (config.port.empty()) return "port must name a serial line, like /dev/ttyUSB0";

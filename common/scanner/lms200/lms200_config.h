@@ -31,7 +31,7 @@ struct Lms200Config {
   }
 };
 
-/// What is wrong with the config, as one line; empty when it is well.
-std::string complaint(const Lms200Config& config);
+/// Why a device cannot be used with this config, as one line for a person; empty when it can.
+std::string why_invalid(const Lms200Config& config);
 
 }  // namespace voxlist::scanner

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "voxlist/scanner/lms200/lms200_commands.h"
+#include "voxlist/system/check.h"
 
 namespace voxlist::scanner {
 namespace {
@@ -16,13 +17,15 @@ struct Speed {
   std::uint8_t mode;
 };
 
-// In the order of their likelihood.
+// Speeds in the order in which a device is likely to be found at them: 9600 is its speed after
+// power-on.
 constexpr std::array<Speed, 4> kSpeeds{{{9600, lms200::k9600Baud},
                                         {38400, lms200::k38400Baud},
                                         {19200, lms200::k19200Baud},
                                         {500000, lms200::k500000Baud}}};
 
-// How the ranges wanted are measured. Mode 0 alone tells dazzled beams apart in every value.
+// The measuring mode and unit (1: millimetres, 0: centimetres) for each greatest range (telegram
+// listing, 7.46). Mode 0 alone marks dazzled beams in every value.
 struct Ranging {
   int range_m;
   std::uint8_t measuring_mode;
@@ -30,19 +33,26 @@ struct Ranging {
 };
 constexpr std::array<Ranging, 4> kRangings{{{8, 0, 1}, {16, 4, 1}, {32, 6, 1}, {80, 0, 0}}};
 
-// What has an LMS 2xx to say when it is there: it accepts within 60 ms, and a status takes 161
-// bytes. One that streams slowly finishes its telegram first.
+// An LMS 2xx that is there accepts a command within 60 ms (telegram listing, 4.3); adapters add
+// theirs (us).
 constexpr std::int64_t kProbe_us = 100'000;
+
+// A status has 161 bytes with its 06, and a scan of 361 values 734 and some margin, ten bits each.
+// A device that streams slowly finishes its telegram before it answers.
 constexpr std::int64_t kStatusBits = 1610, kTelegramBits = 7420;
 
-// New settings in the device's memory take their time.
+// New settings take the device up to 7 s to store (quick manual, C.6).
 constexpr std::int64_t kWriteLimit_us = 8'000'000;
+
+// The settings' memory bears a limited number of writes. A damaged line can cost one or two; a
+// device that still forgets is defect.
 constexpr int kMaxWrites = 3;
 
-// The device is deaf for a while after a change of speed.
+// The device is deaf for a while after a change of speed (us); public drivers wait 250 to 500 ms.
 constexpr std::int64_t kAfterBaud_us = 250'000;
 
-// Of tables that name every value that a config without complaint can have.
+// The row of a table whose key has this value. The tables above name every value that a valid
+// config can have.
 template <class Table, class Key>
 const auto& of(const Table& table, int value, Key key) {
   return *std::ranges::find(table, value, key);
@@ -63,7 +73,9 @@ Lms200Configuration with_wanted(Lms200Configuration configuration, const Ranging
 }  // namespace
 
 Lms200Setup::Lms200Setup(Lms200Link& link, const Lms200Config& config)
-    : link_(link), config_(config) {}
+    : link_(link), config_(config) {
+  VOXLIST_CHECK(why_invalid(config).empty(), "the config's values are not in the tables");
+}
 
 void Lms200Setup::fail(const std::string& what) const {
   throw Lms200Failure("the LMS 200 on " + config_.port + " " + what);
@@ -98,7 +110,7 @@ void Lms200Setup::find() {
                       true);
 }
 
-// Whoever streams is stopped; whoever is still has to tell its status.
+// A device that streams is stopped; one that is silent has to tell its status.
 bool Lms200Setup::answers_at(int baud) {
   link_.set_baud(baud);
   const std::uint8_t stop[] = {lms200::kOnRequest};
@@ -160,7 +172,6 @@ Lms200Configuration Lms200Setup::configuration() {
   return *read;
 }
 
-// Its memory bears only so many writes, and a damaged line can cost one or two.
 void Lms200Setup::write(const Lms200Configuration& wanted) {
   if (writes_ == kMaxWrites)
     fail("forgets its settings; it may be defect: write_configuration = false leaves them alone");
@@ -188,7 +199,8 @@ void Lms200Setup::set_variant() {
     fail("does not measure 180 deg in such steps; choose another resolution_deg");
 }
 
-// Its answer still comes at the old speed. Never sent twice: nobody would know at which speed.
+// The answer still comes at the old speed. The command is never sent twice: nobody would know at
+// which speed the device listens.
 void Lms200Setup::change_baud(int baud) {
   link_.set_mode(of(kSpeeds, baud, &Speed::baud).mode, {}, Lms200Link::Repeat::kWhenRefused);
   link_.set_baud(baud);

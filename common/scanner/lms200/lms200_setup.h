@@ -13,7 +13,7 @@ namespace voxlist::scanner {
 /// Brings an LMS 200 from whatever state it is in to sending scans as configured.
 class Lms200Setup {
  public:
-  /// `link` must outlive it. The config is one without complaint.
+  /// `link` must outlive it. Precondition: the config is valid (why_invalid() is empty).
   Lms200Setup(Lms200Link& link, const Lms200Config& config);
 
   /// Finds the device and returns how it sends its scans from now on. Throws Lms200Failure,

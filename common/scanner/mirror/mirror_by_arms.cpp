@@ -5,13 +5,17 @@
 
 #include "voxlist/geometry/seconds_between.h"
 #include "voxlist/scanner/arms/passage_angles.h"
+#include "voxlist/system/check.h"
 
 namespace voxlist::scanner {
 namespace {
 
-// A line under even time bends where the wall clock is corrected.
+// Passages older than this (s) are dropped: the wall clock is corrected now and then, and a line
+// under even time bends there.
 constexpr double kMaxAge_s = 120.0;
 
+// Passages after which the arms' rate may be held against the clock's: two turns of two arms. With
+// fewer it is known to a few per cent only.
 constexpr std::size_t kRatePassages = 4;
 
 }  // namespace
@@ -67,12 +71,19 @@ void MirrorByArms::doubt() {
 
 bool MirrorByArms::rate_is_sure() const { return locked() && track_->passages() >= kRatePassages; }
 
+double MirrorByArms::rate_radps() const {
+  VOXLIST_CHECK(locked(), "the arms' rate is asked for before passages fit each other");
+  return even_rate_radps_ + track_->rate_radps();
+}
+
 double MirrorByArms::angle_rad(std::int64_t utime_us) const {
+  VOXLIST_CHECK(locked(), "the angle is asked for before passages fit each other");
   return even_angle_rad(utime_us) + track_->offset_rad(seconds_between(origin_us_, utime_us));
 }
 
 // Without a clock nobody knows on which stop of its stair the mirror stands.
 double MirrorByArms::residual_rad() const {
+  VOXLIST_CHECK(locked(), "the residual is asked for before passages fit each other");
   const double step_rad = 2.0 * std::numbers::pi / config_.steps_per_revolution;
   const double stair_rad = config_.staircase ? step_rad / std::sqrt(12.0) : 0.0;
   return std::hypot(track_->residual_rad(), stair_rad);

@@ -10,8 +10,8 @@
 
 namespace voxlist::scanner {
 
-/// Where the mirror is by its arms alone: it is taken to turn evenly, at a rate and in a direction
-/// that its arms' passages tell.
+/// Tells where the mirror is from its arms alone. The mirror is taken to turn evenly, at a rate and
+/// in a direction that the arms' passages tell.
 class MirrorByArms {
  public:
   explicit MirrorByArms(const MirrorClockConfig& config);
@@ -26,18 +26,19 @@ class MirrorByArms {
   /// The mirror may have slipped by any angle.
   void doubt();
 
-  /// Passages fit each other; what follows needs it.
+  /// Whether passages fit each other. Only then may the angle, its residual and the rate be asked
+  /// for.
   bool locked() const { return track_ && track_->locked(); }
 
-  /// So many passages did that their rate may be held against another.
+  /// Whether enough passages did to hold their rate against the clock's.
   bool rate_is_sure() const;
 
   /// The angle at a time (of any turn), and its standard deviation.
   double angle_rad(std::int64_t utime_us) const;
   double residual_rad() const;
 
-  /// With sign.
-  double rate_radps() const { return even_rate_radps_ + track_->rate_radps(); }
+  /// The mirror's rate, negative when psi falls.
+  double rate_radps() const;
 
   /// The sign of the rate, as last seen; before that as configured.
   double direction() const { return direction_; }
@@ -53,7 +54,7 @@ class MirrorByArms {
   MirrorClockConfig config_;
   double direction_;
   ArmRate arm_rate_;
-  double even_rate_radps_ = 0.0;  // of even time as a reference that turns
+  double even_rate_radps_ = 0.0;  // at which even time turns, as the track's reference
   std::int64_t even_origin_us_ = 0;
   std::optional<MirrorTrack> track_;
   std::int64_t origin_us_ = 0;

@@ -5,11 +5,12 @@
 
 #include "voxlist/geometry/seconds_between.h"
 #include "voxlist/scanner/arms/passage_angles.h"
+#include "voxlist/system/check.h"
 
 namespace voxlist::scanner {
 namespace {
 
-// A track of so many passages has settled.
+// Passages after which the phase is as well known as it will be: eight turns of two arms.
 constexpr std::size_t kGrownPassages = 16;
 
 }  // namespace
@@ -72,6 +73,7 @@ void MirrorByClock::doubt() {
 bool MirrorByClock::grown() const { return track_ && track_->passages() >= kGrownPassages; }
 
 MirrorByClock::Stop MirrorByClock::stop_before(std::int64_t utime_us) const {
+  VOXLIST_CHECK(locked(), "the angle is asked for before passages fit the clock");
   const auto step = static_cast<std::int64_t>(std::floor(clock_.steps_at(utime_us)));
   const std::int64_t edge_us = clock_.edge_us(step);
   const auto in_turn = static_cast<double>(step % config_.steps_per_revolution);
@@ -79,7 +81,13 @@ MirrorByClock::Stop MirrorByClock::stop_before(std::int64_t utime_us) const {
                        track_->offset_rad(seconds_between(origin_us_, edge_us))};
 }
 
+double MirrorByClock::residual_rad() const {
+  VOXLIST_CHECK(locked(), "the residual is asked for before passages fit the clock");
+  return track_->residual_rad();
+}
+
 double MirrorByClock::rate_radps() const {
+  VOXLIST_CHECK(ready(), "the rate is asked for before the clock's period is known");
   return direction_ * step_rad_ / (clock_.period_us() * 1e-6);
 }
 

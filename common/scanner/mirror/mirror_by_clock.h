@@ -10,11 +10,11 @@
 
 namespace voxlist::scanner {
 
-/// Where the mirror is by its motor's clock: the clock's steps give the rate, the passages of the
-/// arms the phase.
+/// Tells where the mirror is from its motor's clock: the clock's steps give the rate, the passages
+/// of the arms the phase.
 class MirrorByClock {
  public:
-  /// What a passage was to the ones before it.
+  /// How a passage fits the ones before it.
   struct Verdict {
     std::optional<bool> fits;        ///< where it was expected; nothing when it was not
     std::optional<double> slip_rad;  ///< how far the mirror slipped, which was put right
@@ -40,8 +40,8 @@ class MirrorByClock {
   /// Looks whether the clock's count became known or started anew: then no earlier passage holds.
   void notice_restart();
 
-  /// Passages fitted the clock, and since the last call its edges came to have another period: the
-  /// motor turns at another speed. To be asked before notice_restart().
+  /// Whether passages fitted the clock and, since the last call, its edges came to have another
+  /// period: the motor turns at another speed. To be asked before notice_restart().
   bool changed_rate();
 
   /// The sign of the mirror's rate, as it was seen; when it changes no earlier passage holds.
@@ -53,23 +53,25 @@ class MirrorByClock {
   /// The mirror may have slipped by any angle.
   void doubt();
 
-  /// The clock's rate is known; and edges came lately.
+  /// Whether the clock's rate is known.
   bool ready() const { return clock_.ready(); }
+
+  /// Whether it is known and edges came lately.
   bool running(std::int64_t utime_us) const { return clock_.running(utime_us); }
 
-  /// Passages fit the clock; what follows needs it.
+  /// Whether passages fit the clock. Only then may stop_before() and residual_rad() be asked for.
   bool locked() const { return track_ && track_->locked(); }
 
-  /// So many passages did that the phase is as well known as it will be.
+  /// Whether enough passages did for the phase to be as well known as it will be.
   bool grown() const;
 
   /// The last edge before a time.
   Stop stop_before(std::int64_t utime_us) const;
 
   /// Standard deviation of the angle.
-  double residual_rad() const { return track_->residual_rad(); }
+  double residual_rad() const;
 
-  /// With sign; only when ready().
+  /// The mirror's rate, negative when psi falls; only when ready().
   double rate_radps() const;
 
   double step_rad() const { return step_rad_; }
@@ -84,8 +86,8 @@ class MirrorByClock {
   double direction_;
   StepClock clock_;
   std::optional<MirrorTrack> track_;
-  std::int64_t generation_ = 0;    // of the clock's count that the track is of
-  std::int64_t rate_changes_ = 0;  // that were noticed
+  std::int64_t generation_ = 0;    // the clock's count that the track belongs to
+  std::int64_t rate_changes_ = 0;  // those that were noticed
   std::int64_t origin_us_ = 0;
 };
 

@@ -3,27 +3,39 @@
 #include <algorithm>
 #include <cmath>
 
+#include "voxlist/system/check.h"
+
 namespace voxlist::scanner {
 namespace {
 
+// A hole longer than this (us), or an edge that is older than the one before by more than that,
+// starts the clock anew: the device was away, or its time was set.
 constexpr std::int64_t kMaxGap_us = 2'000'000, kOutOfOrder_us = 100'000;
+
+// The period is first taken from so many edges: the median of 16 gaps bears seven lost or doubled
+// ones.
 constexpr std::size_t kFirstEdges = 17;
 
-// The fit remembers about so many edges: jitter of 0.2 ms averages to 0.02 ms, while the wall
-// clock's slow corrections are followed.
+// The fit remembers about so many edges, 2.5 s at 5 ms: jitter of 0.2 ms averages to 0.02 ms, while
+// the wall clock's slow corrections are followed.
 constexpr double kMemory_edges = 500.0;
 
-// Parts of a period off its place, an edge is not this clock's.
+// An edge that is off its place by more than this share of a period is not this clock's. At 0.5
+// nothing would be off.
 constexpr double kMaxOff = 0.42;
 
-// Of about the last 24 edges, so many that did not follow the one before by a period: another
-// clock.
+// It is another clock when, of about the last kBadnessMemory edges, so many did not follow the one
+// before by a period. A text stream that loses four of ten edges stays far below that.
 constexpr double kBadnessMemory = 24.0, kMaxBadness = 18.0;
+
+// The clock is lost when no edge came for so long (us), and for so many periods: a text stream on
+// USB comes in pieces of 16 ms, and loses a few edges in a row.
+constexpr double kLostAfter_us = 250'000.0, kLostAfterPeriods = 8.0;
 
 // After so many edges the period is known well enough to hold the next ones against it.
 constexpr double kKnownEdges = 200.0;
 
-// What the median of the first gaps is worth.
+// The median of the first gaps counts as a fit over so many edges.
 constexpr double kMedianEdges = 4.0;
 
 }  // namespace
@@ -98,15 +110,17 @@ void StepClock::follow(double since_us) {
 bool StepClock::running(std::int64_t utime_us) const {
   if (!ready()) return false;
   const double since_us = static_cast<double>(utime_us - *origin_us_) - last_raw_us_;
-  return std::abs(since_us) < std::max(250'000.0, 8.0 * period_us_);
+  return std::abs(since_us) < std::max(kLostAfter_us, kLostAfterPeriods * period_us_);
 }
 
 double StepClock::steps_at(std::int64_t utime_us) const {
+  VOXLIST_CHECK(ready(), "steps are asked for before the period is known");
   const double since_us = static_cast<double>(utime_us - *origin_us_) - fitted_us_;
   return static_cast<double>(step_) + since_us / period_us_;
 }
 
 std::int64_t StepClock::edge_us(std::int64_t step) const {
+  VOXLIST_CHECK(ready(), "an edge is asked for before the period is known");
   return *origin_us_ + std::llround(fitted_us_ + static_cast<double>(step - step_) * period_us_);
 }
 

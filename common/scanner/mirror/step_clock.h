@@ -31,7 +31,7 @@ class StepClock {
   /// Forgets everything but the counts.
   void reset();
 
-  /// Whether the period is known; what follows needs it.
+  /// Whether the period is known. Only then may what follows be asked for.
   bool ready() const { return period_us_ > 0.0; }
 
   /// Ready, and an edge came lately.

@@ -1,8 +1,15 @@
 #include "voxlist/scanner/sweep/moving_points.h"
 
 #include "voxlist/geometry/odometry_buffer.h"
+#include "voxlist/system/check.h"
 
 namespace voxlist::scanner {
+
+void MovingPoints::add(std::int64_t utime_us, const BeamHit& hit_base) {
+  VOXLIST_CHECK(points_.empty() || utime_us >= points_.back().utime_us,
+                "points come in the order of time");
+  points_.push_back({utime_us, hit_base});
+}
 
 void MovingPoints::settle() {
   if (odometry_ == nullptr) return;
@@ -46,7 +53,7 @@ void MovingPoints::settle_until(std::int64_t utime_us) {
   }
 }
 
-// From where the points are, once all are settled, to base at the time.
+// Takes settled points, which are in odom, to base at a time. The identity where the robot stands.
 std::optional<Pose3> MovingPoints::T_base_points(std::int64_t utime_us) const {
   if (odometry_ == nullptr) return Pose3::Identity();
   const auto T_odom_base = odometry_->estimate(utime_us, max_extrapolation_us_);

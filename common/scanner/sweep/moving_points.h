@@ -22,10 +22,8 @@ class MovingPoints {
   MovingPoints(const OdometryBuffer* odometry, std::int64_t max_extrapolation_us)
       : odometry_(odometry), max_extrapolation_us_(max_extrapolation_us) {}
 
-  /// Takes a ray in base as it was at its time; times come in order.
-  void add(std::int64_t utime_us, const BeamHit& hit_base) {
-    points_.push_back({utime_us, hit_base});
-  }
+  /// Takes a ray in base as it was at its time. Precondition: times never go back.
+  void add(std::int64_t utime_us, const BeamHit& hit_base);
 
   /// Puts into odom what the odometry of now has passed.
   void settle();

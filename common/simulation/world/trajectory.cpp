@@ -4,10 +4,15 @@
 #include <cmath>
 #include <utility>
 
+#include "voxlist/system/check.h"
+
 namespace voxlist::simulation {
 
 Trajectory::Trajectory(double period_s, std::vector<Pose2> poses)
-    : period_s_(period_s), poses_(std::move(poses)) {}
+    : period_s_(period_s), poses_(std::move(poses)) {
+  VOXLIST_CHECK(!poses_.empty(), "a trajectory has at least one pose");
+  VOXLIST_CHECK(period_s > 0.0, "a trajectory's poses are some time apart");
+}
 
 Pose2 Trajectory::at(double t_s) const {
   const double last = static_cast<double>(poses_.size() - 1);

@@ -9,7 +9,7 @@ namespace voxlist::simulation {
 /// Poses at even steps of time, from t = 0.
 class Trajectory {
  public:
-  /// At least one pose, `period_s` apart.
+  /// Poses `period_s` apart. Precondition: there is at least one, and period_s > 0.
   Trajectory(double period_s, std::vector<Pose2> poses);
 
   /// The pose at a time, interpolated; held before the first and after the last.

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <random>
 
+#include "voxlist/system/check.h"
+
 namespace voxlist::scanner {
 namespace {
 
@@ -103,6 +105,12 @@ TEST(StepClock, RunsOnlyWhileEdgesCome) {
   EXPECT_TRUE(clock.running(stream.time_us(120)));
   EXPECT_FALSE(clock.running(stream.time_us(160)));
 }
+
+#if VOXLIST_CHECKS
+TEST(StepClockDeathTest, IsNotAskedForStepsBeforeItsPeriodIsKnown) {
+  EXPECT_DEATH(StepClock().steps_at(0), "before the period is known");
+}
+#endif
 
 }  // namespace
 }  // namespace voxlist::scanner
