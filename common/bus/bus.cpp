@@ -12,12 +12,13 @@
 namespace voxlist::bus {
 namespace {
 
-// liblcm drops the newest when its queue is full. kEvery: five seconds of 100 Hz odometry behind a
-// slow handler. kLatest: a few seconds of slices, which cost memory while they wait only to be
-// skipped.
+// Messages of a channel that may wait; liblcm drops the newest when the queue is full. kEvery: five
+// seconds of 100 Hz odometry behind a slow handler. kLatest: four seconds of slices, which cost
+// memory while they wait only to be skipped.
 constexpr int kEveryCapacity = 512;
 constexpr int kLatestCapacity = 64;
 
+// Longest channel name that LCM sends.
 constexpr std::size_t kMaxChannelName = 63;
 
 constexpr std::string_view kFileScheme = "file://";

@@ -97,8 +97,8 @@ class Bus {
   /// superseded by a newer one either.
   const Counters& losses() const;
 
-  /// What is not as asked but no reason to stop, for the service's log: one line each, with the
-  /// remedy.
+  /// Warnings for the service's log, one line each, with the remedy: what is not as asked, but no
+  /// reason to stop.
   const std::vector<std::string>& warnings() const;
 
   /// "CHANNEL: what" of the first exception that left a handler; empty when none did.

@@ -15,10 +15,10 @@ using Rows = std::vector<std::vector<float>>;
 
 const std::array<std::string, 3> kOriginChannels = {"origin_x", "origin_y", "origin_z"};
 
-// Orientations come from single-precision senders too.
+// How far a quaternion's norm may be from 1: orientations come from single-precision senders too.
 constexpr double kMaxNormError = 1e-3;
 
-// Half of what fits: the difference of two times fits then.
+// Latest time (us): half of what 64 bits hold, so that the difference of two times fits.
 constexpr std::int64_t kMaxUtime_us = std::int64_t{1} << 62;
 
 bool is_sane(const Eigen::Vector3f& point) {

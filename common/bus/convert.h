@@ -11,8 +11,8 @@
 
 namespace voxlist::bus {
 
-/// Points and poses farther out than this are no measurement. It also keeps voxel coordinates far
-/// from overflow.
+/// Points (m, of a cloud) and positions (m, in the map) farther out than these are no measurement.
+/// They also keep voxel coordinates far from overflow.
 inline constexpr float kMaxPoint_m = 1e4F;
 inline constexpr double kMaxPosition_m = 1e6;
 
@@ -37,7 +37,7 @@ struct PosedCloud {
 
   Pose3 T_map_base = Pose3::Identity();
 
-  /// In base.
+  /// The points, in base.
   Cloud cloud;
 };
 

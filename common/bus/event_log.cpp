@@ -15,10 +15,12 @@ namespace {
 
 constexpr std::array<std::uint8_t, 4> kSync = {0xED, 0xA1, 0xDA, 0x01};
 constexpr std::int64_t kSyncBytes = kSync.size();
-// Sync word, event number, timestamp, length of the channel's name, length of the data.
+// An event's header: sync word, event number, timestamp, length of the channel's name, length of
+// the data.
 constexpr std::size_t kHeaderBytes = 4 + 8 + 8 + 4 + 4;
 constexpr std::int64_t kMaxChannelName = 63;
-// Small: damage is mostly short, and each step reads a block.
+// Bytes that are read at once while looking for the next event after damage. Damage is mostly
+// short.
 constexpr std::int64_t kBlockBytes = 4096;
 
 std::uint64_t read_big_endian(Bytes bytes) {

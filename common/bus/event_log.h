@@ -44,7 +44,7 @@ class EventLogReader {
   /// Their bytes.
   std::int64_t skipped_bytes() const { return skipped_; }
 
-  /// How far it has come, and the whole, bytes: for progress bars.
+  /// Bytes read so far, and bytes of the whole file: for progress bars.
   std::int64_t position_bytes() const { return position_; }
   std::int64_t size_bytes() const { return size_; }
 

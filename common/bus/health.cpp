@@ -9,6 +9,8 @@
 namespace voxlist::bus {
 namespace {
 
+// HEALTH goes out once a second (us); latencies that are kept for its percentiles: far more than
+// messages in a second, so that a flood costs no memory.
 constexpr std::int64_t kPeriod_us = 1'000'000;
 constexpr std::size_t kMaxLatencies = 10'000;
 

@@ -28,8 +28,8 @@ std::string with_receive_buffer(const std::string& url, int bytes) {
   return url + separator + "recv_buf_size=" + std::to_string(bytes);
 }
 
-// What the kernel gives when asked for that much; it clamps silently. Read back from a socket,
-// because /proc/sys/net/core does not show the limit inside a network namespace.
+// The receive buffer that the kernel gives when asked for this much: it clamps silently. Read back
+// from a socket, because /proc/sys/net/core does not show the limit inside a network namespace.
 int granted_receive_buffer(int bytes) {
   const int fd = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   if (fd < 0) return bytes;

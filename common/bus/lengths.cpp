@@ -52,7 +52,7 @@ class Lengths {
     if (fault_ == Fault::kNone) fault_ = fault;
   }
 
-  // More than any type's fields of fixed size.
+  // Bytes that a message's fields of fixed size may have: more than any type's.
   static constexpr std::int64_t kFixedFields = 1000;
 
   std::int64_t bytes_ = 0;

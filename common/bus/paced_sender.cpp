@@ -6,8 +6,8 @@
 namespace voxlist::bus {
 namespace {
 
-// Long enough to pay for the largest message; keeps the product below from overflowing after a long
-// pause.
+// Longest pause that is paid for (us): long enough for the largest message. It keeps the product
+// below from overflowing after a long pause.
 constexpr std::int64_t kMaxPause_us = 60'000'000;
 
 }  // namespace

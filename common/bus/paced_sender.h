@@ -15,8 +15,8 @@ class PacedSender {
     /// Sustained rate. 20 kB/ms: a map of 10 MB takes half a second; a loaded listener still keeps
     /// up.
     std::int64_t bytes_per_ms = 20'000;
-    /// At most this at once, however long nothing was sent. Well below the system's default receive
-    /// buffer (212,992 B).
+    /// Most bytes that are sent at once, however long nothing was sent. Well below the system's
+    /// default receive buffer (212,992 B).
     std::int64_t burst_bytes = 130'000;
     /// Above it push() refuses.
     std::int64_t max_queued_bytes = 256'000'000;

@@ -13,7 +13,8 @@ namespace {
 
 constexpr double kTurn_rad = 2.0 * std::numbers::pi;
 
-// A mirror that turns faster than this is no mirror.
+// A mirror that turns faster than this (rad/s, 160 turns a second) is no mirror: the message is
+// wrong.
 constexpr double kMaxRate_radps = 1000.0;
 
 float sane_range(float range_m) {

@@ -22,7 +22,7 @@ struct CalibrationInput {
   std::vector<StampedPose2> odometry;  ///< to see that the robot stood; may be empty
 };
 
-/// How it is done.
+/// Settings of a calibration.
 struct CalibrationConfig {
   /// Evenly chosen from all: time grows with it.
   std::size_t max_beams = 40'000;
@@ -35,7 +35,7 @@ struct CalibrationConfig {
   double level_sd_deg = 0.05;
 };
 
-/// What came out.
+/// What a calibration found.
 struct CalibrationAnswer {
   ParameterVector parameters, sd;
 
@@ -51,7 +51,7 @@ struct CalibrationAnswer {
 
 /// An answer may be used only without refusals.
 struct Calibration {
-  /// Nothing when it did not get so far.
+  /// Nothing when the calibration was refused before it had found anything.
   std::optional<CalibrationAnswer> answer;
 
   /// Each one line: what the log cannot tell, why, and what to do.

@@ -17,7 +17,7 @@ class MirrorLog {
         reach_us_(std::llround(scanner.mirror_extrapolation_ms * 1e3)),
         motion_(scanner.staircase, reach_us_) {}
 
-  // Times must not go back.
+  // Takes times in ascending order: states that have been passed are not looked at again.
   scanner::MirrorAt at(std::int64_t utime_us) {
     for (; next_ < states_.size() && states_[next_].utime_us <= utime_us + reach_us_; ++next_) {
       motion_.add(states_[next_]);

@@ -6,10 +6,11 @@
 namespace voxlist::calibration {
 namespace {
 
+// Edge of a patch (m): as large as a picture on the wall or the front of a cupboard.
 constexpr double kPatch_m = 0.5;
 
-// In thicknesses. The fronts of two cupboards 8 mm apart are two surfaces at 0.5, but one, tilted,
-// at 1.
+// A patch is even when its mean is within so many thicknesses of its plane. At 0.5 the fronts of
+// two cupboards 8 mm apart are two surfaces; at 1 they are one, tilted.
 constexpr double kEven = 0.5;
 
 struct Mean {

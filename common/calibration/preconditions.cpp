@@ -9,12 +9,26 @@
 namespace voxlist::calibration {
 namespace {
 
+// A robot stands still while odometry stays within these: an LMS 200's noise, and what it makes at
+// 3 m.
 constexpr double kStands_m = 0.01;
 constexpr double kStands_rad = 0.2 * kRadPerDeg;
+
+// Fewer beams than these tell nothing: a tenth of one sweep.
 constexpr std::size_t kMinBeams = 1000;
-constexpr double kUsedSide = 0.05;        // share of the beams
-constexpr double kOneSpeed = 0.1;         // relative
-constexpr double kThickSurface_m = 0.03;  // an LMS 200's noise is a third of it
+
+// A side of the mirror is used when at least this share of the beams came by it.
+constexpr double kUsedSide = 0.05;
+
+// The mirror's speeds that differ by less than this share are one speed: then latency and phase
+// cannot be told apart.
+constexpr double kOneSpeed = 0.1;
+
+// A surface thicker than this (m) is worth a warning: an LMS 200's noise is a third of it.
+constexpr double kThickSurface_m = 0.03;
+
+// In units of what is plausible for a parameter: a value beyond the first is worth a warning; one
+// whose standard deviation is beyond the second is not known at all.
 constexpr double kSurprisingInPlausible = 2.0;
 constexpr double kUnknownInPlausible = 0.3;
 

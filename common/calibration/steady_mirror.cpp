@@ -10,10 +10,16 @@
 namespace voxlist::calibration {
 namespace {
 
+// A stretch of states breaks off at a hole longer than this (us), at an angle that is off the last
+// one's line by more than this (rad), and at another rate by more than this share: the motor was
+// given another speed, or slipped.
 constexpr std::int64_t kMaxGap_us = 500'000;
-constexpr std::int64_t kDoubtful_us = 1'000'000;
 constexpr double kMaxJump_rad = 2.0 * std::numbers::pi / 180.0;
-constexpr double kMaxRateChange = 0.01;  // relative
+constexpr double kMaxRateChange = 0.01;
+
+// The end of a stretch that is left out (us): mirror_monitor tells a stall or slip up to a second
+// late.
+constexpr std::int64_t kDoubtful_us = 1'000'000;
 
 bool is_locked(const MirrorState& state) {
   return state.state == MirrorState::State::kLocked && state.angle_known;

@@ -6,7 +6,7 @@
 
 namespace voxlist::calibration {
 
-/// What MIRROR said, seen from the end.
+/// MIRROR's states, corrected by what later states knew better.
 struct SteadyMirror {
   std::vector<MirrorState> states;
 

@@ -30,7 +30,7 @@ struct SurfaceFit {
   std::vector<Plane> planes;
 };
 
-/// What is known beside them.
+/// What a fit has to agree with: contacts of beams with planes, and what is known beside them.
 struct SurfaceEvidence {
   std::span<const MirrorBeam> beams;
   std::vector<Contact> contacts;

@@ -11,7 +11,7 @@ namespace voxlist::mapping {
 /// A cloud with its place in the map: what maps are made of.
 struct Keyframe {
   Pose3 T_map_base = Pose3::Identity();
-  /// In base.
+  /// The points, in base.
   Cloud cloud;
 };
 

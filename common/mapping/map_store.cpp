@@ -79,7 +79,7 @@ std::string encode(const Keyframe& keyframe) {
   return record + payload;
 }
 
-// Nothing when the payload's lengths do not fit together, or its pose is none.
+// The keyframe in a payload; nothing when its lengths do not fit together, or its pose is no pose.
 std::optional<Keyframe> decode(std::string_view payload) {
   if (payload.size() < kPayloadHeader) return std::nullopt;
   Keyframe keyframe;

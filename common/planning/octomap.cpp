@@ -15,7 +15,7 @@ octomap::point3d to_octomap(const Eigen::Vector3d& p) {
   return {f.x(), f.y(), f.z()};
 }
 
-// As OctoMap's writeBinary, which also prints a line to the console each time.
+// Writes as OctoMap's writeBinary does, without the line that it prints to the console each time.
 std::string to_bt(octomap::OcTree copy) {
   copy.toMaxLikelihood();
   copy.prune();

@@ -6,6 +6,8 @@
 namespace voxlist::serial {
 namespace {
 
+// The adapter's latency timer (ms): its least. The default of 16 ms is longer than a scan, so scans
+// would arrive in pairs.
 constexpr int kLatency_ms = 1;
 
 std::optional<int> number_in(const std::filesystem::path& file) {

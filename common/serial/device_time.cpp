@@ -7,12 +7,15 @@
 namespace voxlist::serial {
 namespace {
 
+// The line rests on the arrivals of this window (us), of which the earliest in each bucket is kept.
+// A longer window averages more jitter and follows a drifting crystal later.
 constexpr double kWindow_us = 20e6, kBucket_us = 1e5;
 
-// A line through less says nothing about the clocks' rates.
+// A line through less time than this (us) says nothing about the clocks' rates.
 constexpr double kMinSpan_us = 1e6;
 
-// So early or so late, the time is wrong or a clock was set.
+// An arrival that is earlier or later than the line by these (us) is wrong, or a clock was set: so
+// many of them in a row mean that it was.
 constexpr double kEarly_us = 50'000.0, kLate_us = 1e6;
 constexpr int kMaxStrange = 5;
 

@@ -7,6 +7,7 @@
 namespace voxlist::serial {
 namespace {
 
+// Longest line: the digits of 64 bits. What is longer is garbage.
 constexpr std::size_t kMaxLine = 20;
 
 }  // namespace

@@ -36,7 +36,7 @@ fs::path other_end_of(int master, const fs::path& link) {
   std::array<char, 128> name;
   if (ptsname_r(master, name.data(), name.size()) != 0)
     fail(link, "cannot name a pseudo-terminal", errno);
-  // Only an end that was opened and closed tells that nobody has it open.
+  // poll() tells that nobody has the other end open only after it was opened and closed once.
   const FileDescriptor once(::open(name.data(), O_RDWR | O_NOCTTY | O_CLOEXEC));
   if (once.get() < 0) fail(link, std::string("cannot open ") + name.data(), errno);
   return name.data();

@@ -36,7 +36,8 @@ class PseudoTerminal {
   /// Whether somebody has the other end open.
   bool is_open() const;
 
-  /// To wait on for bytes. While nobody has the other end open, poll says POLLHUP at once.
+  /// A descriptor to wait on for bytes. While nobody has the other end open, poll says POLLHUP at
+  /// once.
   int fd() const { return master_.get(); }
 
   const std::filesystem::path& link() const { return link_; }

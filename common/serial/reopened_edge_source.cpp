@@ -7,6 +7,8 @@
 namespace voxlist::serial {
 namespace {
 
+// Waits between attempts to open a lost device (us): soon at first, for a plug that was pulled by
+// mistake, then ever more seldom, so that a device that never comes costs nothing.
 constexpr std::int64_t kFirstWait_us = 500'000, kLongestWait_us = 10'000'000;
 
 }  // namespace

@@ -19,9 +19,14 @@
 namespace voxlist::serial {
 namespace {
 
-constexpr std::int64_t kWriteTimeout_us = 1'000'000;  // the system's buffer holds any request
+// A write that takes longer than this (us) means a dead line: the system's buffer holds any
+// request.
+constexpr std::int64_t kWriteTimeout_us = 1'000'000;
+
+// Above this speed bytes to an LMS 200 have to be kept apart by this pause: it may refuse bytes
+// that come closer than 55 us (telegram listing, 4.3). At 38400 baud a byte takes 260 us anyway.
 constexpr int kFastBaud = 38400;
-constexpr long kPause_ns = 55'000;  // between bytes to an LMS 200 (telegram listing, 4.3)
+constexpr long kPause_ns = 55'000;
 
 std::string advice(int error) {
   switch (error) {

@@ -25,7 +25,7 @@ class SerialPort : public Port {
   void flush() override;
   std::int64_t now_us() const override;
 
-  /// To wait on for bytes.
+  /// A descriptor to wait on for bytes.
   int fd() const { return fd_.get(); }
 
   /// What makes this port worse than it could be, in one line for the log, with what to do; empty:

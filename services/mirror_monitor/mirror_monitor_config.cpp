@@ -3,12 +3,15 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "services/mirror_monitor/open_edge_source.h"
+
 namespace voxlist::services {
 namespace {
 
 constexpr double kDegree_rad = std::numbers::pi / 180.0;
 
-// Fewer beams cannot be told from noise.
+// The least that an arm may block (degrees): ArmDetector leaves two beams at each end, and needs
+// three that come or leave.
 constexpr double kMinArm_deg = 8.0;
 
 }  // namespace
@@ -31,7 +34,7 @@ scanner::MirrorClockConfig mirror_clock_config(const MirrorMonitorConfig& config
   }
   result.arm_height_max_m = config.arm_height_max_m;
   result.steps_per_revolution = config.steps_per_revolution;
-  result.has_clock = config.clock != "none";
+  result.has_clock = names_a_clock(config.clock);
   result.turns_backwards = config.turns_backwards;
   result.staircase = config.staircase;
   return result;

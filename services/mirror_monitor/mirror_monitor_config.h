@@ -41,7 +41,8 @@ struct MirrorMonitorConfig {
   }
 };
 
-/// What the mirror clock is to know. Throws std::invalid_argument for settings that make no sense.
+/// The settings as the mirror clock takes them. Throws std::invalid_argument for settings that make
+/// no sense.
 scanner::MirrorClockConfig mirror_clock_config(const MirrorMonitorConfig& config);
 
 }  // namespace voxlist::services

@@ -13,6 +13,7 @@
 namespace voxlist::services {
 namespace {
 
+// Speed of a text stream that names none: the usual one of microcontrollers.
 constexpr int kUsualBaud = 115'200;
 
 struct Parts {
@@ -41,9 +42,11 @@ std::optional<int> number(const std::string& text) {
 
 }  // namespace
 
+bool names_a_clock(const std::string& where) { return where != "none"; }
+
 std::unique_ptr<serial::EdgeSource> open_edge_source(const std::string& where,
                                                      std::function<std::int64_t()> clock) {
-  if (where == "none") return nullptr;
+  if (!names_a_clock(where)) return nullptr;
   serial::ReopenedEdgeSource::Open open;
   if (where.starts_with("gpio:")) {
     const auto parts = split(where.substr(5), '/');

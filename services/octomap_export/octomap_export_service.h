@@ -66,7 +66,7 @@ class OctomapExportService {
   const OctomapExportConfig config_;
   KeyframeQueue queue_;
   planning::OctomapBuilder builder_;
-  // Of the newest keyframe inserted.
+  // Map and time of the newest keyframe inserted.
   std::int64_t map_id_ = 0, utime_us_ = 0;
   std::int64_t keyframes_ = 0;
   Pending publishing_, saving_;

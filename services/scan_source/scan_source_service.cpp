@@ -14,7 +14,8 @@
 namespace voxlist::services {
 namespace {
 
-// Between the last scan of a round and the first of the next, when there is but one.
+// Time from the last scan of a round to the first of the next when there is only one scan, which
+// has no period of its own.
 constexpr std::int64_t kDefaultPeriod_us = 1'000'000;
 
 const ScanSourceConfig& checked(const ScanSourceConfig& config) {

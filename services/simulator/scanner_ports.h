@@ -18,7 +18,7 @@ namespace voxlist::services {
 /// switched on, in 32 bits.
 class ScannerPorts {
  public:
-  /// What the microcontroller's clock says at the run's start: it was on before.
+  /// Time of the microcontroller's clock at the run's start: it was switched on before.
   static constexpr std::int64_t kControllerStart_us = 5'000'000;
 
   /// The run, and the laser's power, begins at `start_utime_us`. Throws PortError, and

@@ -29,11 +29,17 @@ std::int64_t utime_us(const simulation::SimulatedEvent& event) {
       event);
 }
 
-bool has_scanner(const SimulatorConfig& config) { return config.output == "scanner"; }
+enum class Output { kScanner, kCloud };
+
+Output output_of(const SimulatorConfig& config) {
+  if (config.output == "scanner") return Output::kScanner;
+  if (config.output == "cloud") return Output::kCloud;
+  throw std::invalid_argument("output must be \"scanner\" or \"cloud\"");
+}
+
+bool has_scanner(const SimulatorConfig& config) { return output_of(config) == Output::kScanner; }
 
 SimulatorConfig checked(SimulatorConfig config) {
-  if (config.output != "scanner" && config.output != "cloud")
-    throw std::invalid_argument("output must be \"scanner\" or \"cloud\"");
   if (has_scanner(config) && config.speed != 1.0)
     throw std::invalid_argument(
         "speed must be 1: the scanner's ports run in real time. For other speeds: output = "

@@ -17,7 +17,7 @@ class UsbAdapter {
   /// Takes bytes from the device.
   void take(std::span<const std::uint8_t> bytes);
 
-  /// What the host gets until a time.
+  /// The bytes that the host gets until a time.
   std::vector<std::uint8_t> given_until(std::int64_t utime_us);
 
  private:

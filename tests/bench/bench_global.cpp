@@ -24,7 +24,7 @@ namespace {
 constexpr double kClear = 0.1;
 constexpr double kRight_m = 0.05, kRight_rad = 0.5 * std::numbers::pi / 180.0;
 
-// By how much the first mode's support is ahead.
+// How far the first mode's support is ahead of the second's.
 double margin(const std::vector<matching::MatchMode>& modes) {
   return modes.front().support - (modes.size() > 1 ? std::max(0.0, modes[1].support) : 0.0);
 }

@@ -27,7 +27,7 @@ struct TypeInfo {
   double (*load)(const char*, std::endian);
 };
 
-// In the order of Scalar.
+// Each list is in the order of Scalar.
 constexpr std::array<TypeInfo, 10> kTypes{{
     {Scalar::kInt8, 1, 'I', "char", "int8", load<std::int8_t>},
     {Scalar::kUint8, 1, 'U', "uchar", "uint8", load<std::uint8_t>},

@@ -12,8 +12,8 @@ namespace voxlist::io {
 
 /// One line of a pose table.
 struct PoseRow {
-  /// From the column index or scan; else the last number in the file's name; else the row's
-  /// position from 0.
+  /// The scan's number: from the column index or scan; else the last number in the file's name;
+  /// else the row's position from 0.
   std::int64_t scan = 0;
   /// The scan's file name as written; empty when the table has no such column.
   std::string file;

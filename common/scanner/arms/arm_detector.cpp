@@ -7,21 +7,24 @@
 namespace voxlist::scanner {
 namespace {
 
-// An arm's outermost beams may pass its end, or see only half of it.
+// An arm's outermost beams (rad) may pass its end, or see only half of it: two beams of 1 deg.
 constexpr double kEndMargin_rad = 2.0 * std::numbers::pi / 180.0;
 
-// Fewer beams at one end of a line than these are noise, not an arm that comes or leaves; and the
-// picture of one that does must have so many contradictions less than that of one that does not.
+// Fewer beams than these at one end of a line are noise, not an arm that comes or leaves. An arm
+// comes or leaves in a line only if that explains so many more of its beams than an arm that stays.
 constexpr std::size_t kMinPart = 3;
 
-// Of the arm's beams, how many may contradict the picture before the line says nothing.
+// A line says nothing about an arm when more than this share of the arm's beams contradict the
+// picture.
 constexpr double kMaxContradiction = 0.2;
 
-// Of the other beams, how many may be near before it is the plate's edge, which can also cover the
-// beginning or the end of a line.
+// A line shows the edge of the mirror's plate, not an arm, when more of the other beams are near
+// than this many and this share of those that measured something. The edge can also cover the
+// beginning or the end of a line alone; four wild beams of 131 are no edge.
 constexpr double kMaxOthersNear = 4.0, kMaxShareNear = 0.04;
 
-// A passage with a hole longer than this is not followed.
+// A passage is not followed over a hole in LASER that is longer than this (us): at half a turn a
+// second an arm passes in less.
 constexpr std::int64_t kMaxGap_us = 500'000;
 
 struct Beam {

@@ -10,7 +10,9 @@ namespace {
 
 constexpr double kTurn_rad = 2.0 * std::numbers::pi;
 
-// Two turns of one arm differ by no more than this share, and gaps by no more than this angle.
+// The mirror turns evenly when two turns of one arm differ by no more than this share; a gap
+// between arms fits the settings to within this angle (rad, 4.6 deg). Passages are known to two
+// lines, 2.4 deg each at half a turn a second.
 constexpr double kTurnTolerance = 0.05;
 constexpr double kGapTolerance_rad = 0.08;
 
@@ -39,7 +41,8 @@ std::optional<double> ArmRate::add(const ArmPassage& passage) {
     const bool even = std::abs(2.0 * first_s / both_s - 1.0) < kTurnTolerance;
     return even ? std::optional(sign_ * 2.0 * kTurn_rad / both_s) : std::nullopt;
   }
-  // From the first arm to the second, seen in the wanted direction, minus what it should be.
+  // The angle from the first arm to the second, as seen in the wanted direction, against what the
+  // settings say for either direction.
   const double seen_rad = first_s / both_s * kTurn_rad;
   const double there_rad = arms_[passages_[1].arm].angle_rad - arms_[passages_[0].arm].angle_rad;
   const double forwards_off = std::abs(wrap_angle(sign_ * there_rad - seen_rad));

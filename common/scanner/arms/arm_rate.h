@@ -8,8 +8,8 @@
 
 namespace voxlist::scanner {
 
-/// How fast, and in which direction, the mirror turns by the order and the times of its arms alone:
-/// from three passages in a row, arm A, arm B, arm A, or three of one arm.
+/// Tells how fast, and in which direction, the mirror turns, from the order and the times of its
+/// arms alone: three passages in a row, arm A, arm B, arm A, or three of one arm.
 class ArmRate {
  public:
   /// `sign`: the direction that is taken for granted where the arms cannot tell.

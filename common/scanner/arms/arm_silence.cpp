@@ -11,10 +11,13 @@ namespace {
 
 constexpr double kTurn_rad = 2.0 * std::numbers::pi;
 
-// Turns without a passage until an arm is missing, gaps until the mirror stands for all we know.
+// An arm is missing after so many turns without it: one passage may be lost in a hole. All arms are
+// silent after so many gaps between two arms. Fewer would tell a mirror that slows down a little;
+// more would tell a stall later.
 constexpr double kMissingTurns = 2.5, kSilentGaps = 1.5;
 
-// An arm can pass unseen while three lines in a row are lost.
+// A hole in LASER longer than this (us): an arm can pass unseen while three lines in a row are
+// lost.
 constexpr std::int64_t kHole_us = 48'000;
 
 double widest_gap_rad(const std::vector<BlockingArm>& arms) {
@@ -47,7 +50,7 @@ void ArmSilence::looked(std::int64_t utime_us) {
   last_look_us_ = utime_us;
 }
 
-// How long a silence has to be.
+// How long a silence has to be to mean something.
 double ArmSilence::silence_s(std::int64_t now_us, double rate_radps) const {
   // An arm that has been missing is not waited for.
   const double gap_rad = missing(now_us, rate_radps) ? kTurn_rad : widest_gap_rad_;

@@ -7,25 +7,33 @@
 namespace voxlist::scanner {
 namespace {
 
-// A range has changed when it did by more than what driving and turning make of it.
+// A range has changed when it did by more than this (m) and this share: more than a robot's own
+// motion makes of it in 30 to 800 ms.
 constexpr float kChange_m = 0.06F, kRelativeChange = 0.07F;
 
-// A robot that turns while the mirror stands moves what the beams meet by so many beams.
+// A robot that turns while the mirror stands shifts what the beams meet by up to so many beams of 1
+// deg.
 constexpr std::size_t kTurned_beams = 3;
 
+// Two lines with fewer beams to compare say nothing. They differ when more than this share of the
+// beams changed: people who walk by change fewer.
 constexpr int kMinReturns = 20;
 constexpr double kMovingShare = 0.25;
 
+// Lines that are kept to compare with: a second of them, more than the longest lag.
 constexpr std::size_t kMaxLines = 80;
 
-// Passages that are remembered: of two arms, four turns.
+// Stillness between the last so many passages is normal: four turns of two arms. With fewer than
+// three passages nothing is known.
 constexpr std::size_t kPassages = 8, kMinPassages = 3;
 
-// Longer than normal, for certain.
+// Stillness is more than normal when it is longer by this factor and this time (us). A smaller
+// margin risks to tell a stall that is none; a larger one tells a stall later (within 0.4 s in a
+// room now).
 constexpr double kFactor = 1.3, kMargin_us = 80'000.0;
 
-// Time without lines is no stillness: a line speaks for the time since the one before it, or for
-// two lines' at most, and nobody saw what happened in a hole longer than this.
+// Time without lines is no stillness. A line speaks for the time since the one before it, but for
+// no longer than two lines take (us); in a hole longer than kMaxGap_us nobody saw what happened.
 constexpr double kLineSpeaks_us = 30'000.0;
 constexpr std::int64_t kMaxGap_us = 100'000;
 

@@ -7,10 +7,12 @@
 
 namespace voxlist::scanner {
 
-/// Of the time stamps of LASER, microseconds.
+/// Jitter of LASER's time stamps (us, standard deviation): what the scan clock leaves of an
+/// adapter's 16 ms. A greater value makes the mirror's angle less sure than it is; a smaller one
+/// takes stamps that are a little off for a mirror that has slipped.
 inline constexpr double kStampJitter_us = 300.0;
 
-/// How passages of a mirror are fitted that turns at about this rate: the jitter of their times is
+/// Options for fitting passages of a mirror that turns at about this rate: jitter of their times is
 /// noise of their angles.
 PassageFit::Options passage_fit_options(double rate_radps);
 

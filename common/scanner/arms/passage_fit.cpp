@@ -8,15 +8,22 @@
 namespace voxlist::scanner {
 namespace {
 
+// Noise that a fit starts with (rad): a whole span at 0.5 turns a second, 2.4 deg, so that every
+// end has a say. It is halved down to the true noise, each time with up to kClimbs steps of
+// Newton's method.
 constexpr double kFirstNoise_rad = 0.04;
 constexpr int kClimbs = 6;
 
-// So many times a span's width, about its middle: pulls where the spans themselves do not.
+// Each end is also pulled to the middle of its span, with a standard deviation of so many widths:
+// too weak to move what the spans tell, strong enough to hold an end that lies in none of them.
 constexpr double kMiddlePull = 10.0;
 
-// A rate against the reference: rough at first, and as a crystal holds it.
+// Standard deviation of the mirror's rate against the reference (rad/s): before anything is known,
+// and for a rate that was fitted before, as a crystal holds it (1e-4 of half a turn a second).
 constexpr double kRoughRateSd_radps = 0.1, kCrystalRateSd_radps = 3e-4;
 
+// Where the search for an end's standard deviation stops (rad): 11 deg, five spans, is not known at
+// all.
 constexpr double kMaxSd_rad = 0.2;
 
 double logistic(double x) { return 1.0 / (1.0 + std::exp(-x)); }
@@ -99,7 +106,7 @@ void PassageFit::fit() {
   origin_s_ = passages_.back().time_s;
   const std::vector<End> ends = collect();
   start_at_middles(ends);
-  // From wide noise, where every end has a say, to the true one.
+  // The noise is narrowed down from a wide one, where every end has a say, to the true one.
   double noise_rad = std::max(kFirstNoise_rad, options_.noise_rad);
   for (; noise_rad > options_.noise_rad; noise_rad *= 0.5) climb(ends, noise_rad);
   climb(ends, options_.noise_rad);
@@ -165,8 +172,8 @@ void PassageFit::judge(const std::vector<End>& ends) {
     }
     return sum;
   };
-  // How far one can go until the likelihood has fallen by exp(-1/2): a standard deviation where it
-  // is Gaussian, the half width where it is flat.
+  // The way to where the likelihood has fallen by exp(-1/2): a standard deviation where it is
+  // Gaussian, the half width where it is flat.
   const auto reach = [&](Eigen::Index which, double sign) {
     const double limit = cost(which, ends_rad_[which]) + 0.5;
     double inside = 0.0, outside = kMaxSd_rad;

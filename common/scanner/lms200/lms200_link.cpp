@@ -9,29 +9,37 @@
 namespace voxlist::scanner {
 namespace {
 
+// A command is sent so often before the device counts as silent or unwilling. One damaged byte in a
+// request or a reply costs one try.
 constexpr int kTries = 3;
 
-// A stop is noticed this soon.
+// Longest single wait (us): a stop is noticed this soon.
 constexpr std::int64_t kSlice_us = 100'000;
 
-// By so much more than it asked for this program was kept from reading.
+// A read that lasts longer than it was allowed to by this much (us) means that the system kept this
+// program from reading. What arrives then may have waited, so its age tears no telegram.
 constexpr std::int64_t kStall_us = 20'000;
 
-// The device accepts a command within 60 ms; adapters add theirs.
+// Wait for the 06 or 15 (us). The device sends it within 60 ms (telegram listing, 4.3, page 24);
+// USB adapters and a busy host add theirs. Public drivers wait as long.
 constexpr std::int64_t kAccepted_us = 250'000;
 
-// A reply of 161 bytes, ten bits each.
+// The longest reply to a command is the status: 161 bytes with the 06, ten bits each.
 constexpr std::int64_t kReplyBits = 1610;
 
-// Once a reply came damaged no other will come.
+// Wait after a damaged reply (us): the device does not send it again, but what is left of it has to
+// pass before the command is repeated.
 constexpr std::int64_t kAfterDamage_us = 200'000;
 
-// The device asks for 30 ms.
+// Pause before a refused command is repeated (us). The device asks for 30 ms (telegram
+// listing, 4.3).
 constexpr std::int64_t kAfterRefusal_us = 35'000;
 
-// The answer to a command that was repeated may come twice.
+// A repeated command may be answered twice. So long (us) after the first answer the second one is
+// still taken for it, and not for the answer to the next command.
 constexpr std::int64_t kSecondAnswer_us = 100'000;
 
+// A change of mode takes up to 3 s (telegram listing, 4.3).
 constexpr std::int64_t kModeLimit_us = 3'000'000;
 
 std::string hex(std::uint8_t byte) {

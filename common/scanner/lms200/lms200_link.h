@@ -29,14 +29,14 @@ class Lms200Link {
   /// within 100 ms as an Lms200Failure.
   Lms200Link(serial::Port& port, std::string port_name, std::stop_token stop);
 
-  /// From here on at another speed; what was under way is forgotten.
+  /// Goes on at another speed and forgets what was under way.
   void set_baud(int baud);
   int baud() const { return baud_; }
 
   /// Sends a command and waits for nothing.
   void send(std::uint8_t command, std::span<const std::uint8_t> data);
 
-  /// A command that may be sent again when no answer came, or only when it was refused.
+  /// When a command may be sent again: when no answer came, or only when it was refused.
   enum class Repeat { kWhenSilent, kWhenRefused };
 
   /// Sends a command and returns its reply. Repeats it up to three times. Throws Lms200Failure:
@@ -48,14 +48,16 @@ class Lms200Link {
   void set_mode(std::uint8_t mode, std::span<const std::uint8_t> password = {},
                 Repeat repeat = Repeat::kWhenSilent);
 
-  /// What comes next, until a time of the port's clock.
+  /// Waits for the next event until a time of the port's clock; nothing when none came.
   std::optional<Lms200Event> event(std::int64_t deadline_us);
 
   /// Lets time pass. What arrives meanwhile is kept.
   void wait(std::int64_t duration_us);
 
-  /// Forgets what arrived; after this no stop is heeded any more.
+  /// Forgets what arrived.
   void forget();
+
+  /// From now on a requested stop ends no wait: for switching the device off at the end.
   void ignore_stop() { stop_ = {}; }
 
   std::int64_t now_us() const { return port_.now_us(); }
@@ -76,7 +78,7 @@ class Lms200Link {
   Lms200Parser parser_;
   int baud_ = 0;
   std::int64_t received_bytes_ = 0;
-  std::int64_t looked_us_ = 0;  // at the port, the last time
+  std::int64_t looked_us_ = 0;  // when the port was last read
 };
 
 }  // namespace voxlist::scanner

@@ -9,34 +9,39 @@
 namespace voxlist::scanner {
 namespace {
 
-// Fewer arrivals, or over less time, say too little to call anything wrong.
+// Fewer arrivals than these, or over less time (us), say too little to call anything wrong.
 constexpr double kSettled_us = 2e6;
 constexpr std::size_t kSettledScans = 100;
 
-// What is known of a motor's period, relative: the standard deviation.
+// Standard deviation of a motor's period, as a share of it, once it was known: what a motor drifts.
 constexpr double kPeriodSd = 0.0004;
 
-// Mean lateness that the line's slope is weighed with against that knowledge.
+// The mean lateness (us) with which arrivals are weighed against that knowledge: a USB adapter's 16
+// ms. Smaller, and the slope follows an adapter's beat; larger, and it follows the motor later.
 constexpr double kMeanLate_us = 16'000.0;
 
-// No arrival is on time to the microsecond: at its end, the line lies so many mean latenesses,
-// divided by the number of arrivals, too high.
+// No arrival is on time to the microsecond, so the line lies too high at its end: by so many mean
+// latenesses, divided by the number of arrivals.
 constexpr double kBias = 3.0;
 
-// Arrivals on the grid come no earlier than the line by more than its own error.
+// An arrival that is earlier than the line by more than this (us) is not on its grid: more than the
+// line's own error.
 constexpr double kEarly_us = 5000.0;
 
-// One scan in a few comes this near to the line; when none of so many does, the line is wrong. An
-// adapter that delays evenly by up to 16 ms passes 150 scans with one chance in 10^13.
+// One scan in a few comes this near to the line (us); when none of so many does, the line is wrong.
+// An adapter that delays evenly by up to 16 ms keeps 150 scans away with one chance in 10^13.
 constexpr double kLate_us = 5000.0;
 constexpr int kLateScans = 150;
 
-// Without an index: so many scans late by a whole turn mean that one was lost.
+// Without an index, so many scans in a row that are late by a whole turn mean that one was lost.
+// More than kSlipTurns turns are no lost scans; kSlipError_us (us) is what the least late one may
+// be off by.
 constexpr int kSlipScans = 12;
 constexpr double kSlipTurns = 4.0;
 constexpr double kSlipError_us = 2000.0;
 
-// A clock that was set by much need not wait for kLateScans.
+// Scans that are later than this (us), so many in a row, mean that the clock was set: no need to
+// wait for kLateScans.
 constexpr double kFar_us = 150'000.0;
 constexpr int kFarScans = 15;
 

@@ -13,13 +13,14 @@ struct ScanClockConfig {
   /// One turn of the laser's mirror, nominal: real motors may be a hundredth off and drift.
   double turn_us = kLaserTurn_us;
 
-  /// From a scan's first beam to the arrival of its first byte when nothing held it up.
+  /// Time from a scan's first beam to the arrival of its first byte when nothing held it up.
   double delay_us = 0.0;
 
-  /// From one scan to the next: more than one where the line is slower than the mirror.
+  /// Turns of the mirror from one scan to the next: more than one where the line is slower than the
+  /// mirror.
   int turns_per_scan = 1;
 
-  /// The envelope rests on the scans of this long.
+  /// The line rests on the arrivals of so many seconds.
   double window_s = 20.0;
 };
 

@@ -8,18 +8,20 @@
 namespace voxlist::scanner {
 namespace {
 
+// Edges that are looked at together: a new speed is told within about so many.
 constexpr std::size_t kEdges = 24;
 
-// Edges that are together late, or early, by so many periods are of another clock: 3 % over all of
-// them. Jitter counts only at both ends: that of a tenth of a period stays far below.
+// The edges belong to another clock when they are late, or early, by so many periods together: 3 %
+// over all of them. Jitter counts only at both ends, and jitter of a tenth of a period stays far
+// below.
 constexpr double kMaxLate = 0.72;
 
-// One edge far off, or a device's time that is brought to the wall clock anew, does not change the
-// typical one.
+// The typical edge has to be late by so many periods as well. One edge far off, or a device's time
+// that is brought to the wall clock anew, does not change the typical one.
 constexpr double kMinTypicalLate = 0.025;
 
-// Parts of a period off its place, an edge is not this clock's; or when half of them are, they are
-// and the clock is another.
+// An edge that is off its place by more than this share of a period is strange. When half of the
+// edges are, it is the clock that has changed.
 constexpr double kStrange = 0.3;
 
 bool is_strange(double late) { return std::abs(late) > kStrange; }

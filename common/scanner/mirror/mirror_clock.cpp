@@ -11,6 +11,8 @@
 namespace voxlist::scanner {
 namespace {
 
+// LASER's time has jumped when a line is older than the one before by more than kOutOfOrder_us, or
+// newer by more than kTimeJump_us: more than any wait for the bus, less than a clock is set by.
 constexpr std::int64_t kTimeJump_us = 2'000'000, kOutOfOrder_us = 100'000;
 
 }  // namespace
@@ -62,7 +64,7 @@ class MirrorClock::Impl {
     evidence_.now_us = utime_us;
   }
 
-  // How still a turning mirror leaves the lines, and all else that was learnt, was of the old rate.
+  // All that was learnt belongs to the old rate, also how still a turning mirror leaves the lines.
   void notice_new_rate() {
     if (!evidence_.clock.changed_rate()) return;
     detector_.reset();

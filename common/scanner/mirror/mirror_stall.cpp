@@ -7,7 +7,9 @@
 namespace voxlist::scanner {
 namespace {
 
-// Lines are compared over this much of the beam's turn: twice the mirror's.
+// Lines are compared over this much of the beam's turn (rad), which is twice the mirror's: enough
+// to change most ranges. The lag (us) is kept within what a robot's own motion leaves alone; the
+// third is for a mirror whose rate is not known.
 constexpr double kCompare_rad = 22.5 * std::numbers::pi / 180.0;
 constexpr double kMinCompare_us = 30'000.0, kMaxCompare_us = 800'000.0,
                  kFirstCompare_us = 100'000.0;

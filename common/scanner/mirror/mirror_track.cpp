@@ -9,18 +9,20 @@
 namespace voxlist::scanner {
 namespace {
 
-// How far an arm may be from where its settings say, against the other arm.
+// How far an arm may be from where its settings say, against the other arm (rad, 4 deg): what a
+// person measures with a protractor.
 constexpr double kArmMisfit_rad = 0.07;
 
-// A young free line's rate is hardly known.
+// While the fit has fewer passages than this, its free rate is hardly known: passages may be off by
+// so much more (rad).
 constexpr std::size_t kYoung = 8;
 constexpr double kYoungMisfit_rad = 0.05;
 
-// So many of the fit's noise is no noise.
+// A passage that is off by so many standard deviations of the noise is no noise.
 constexpr double kNoises = 6.0;
 
-// A passage that was off is a wild one when so many come after it that are not; and when so many
-// are off and do not agree, nothing that is known holds.
+// A passage that was off was a wild one when so many that fit come after it. When kMaxOff are off
+// and do not agree with each other, nothing that was known holds any more.
 constexpr int kFitsAfterWild = 6;
 constexpr std::size_t kMaxOff = 4;
 

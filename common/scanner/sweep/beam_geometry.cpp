@@ -13,7 +13,8 @@ namespace {
 constexpr double kRadians = std::numbers::pi / 180.0;
 constexpr double kTurn_rad = 2.0 * std::numbers::pi;
 
-// A beam at the very first or last angle belongs to the mirror, however its angle was rounded.
+// A beam at the very first or last angle belongs to the mirror, however its angle was rounded
+// (rad).
 constexpr double kAngleSlack_rad = 1e-4;
 
 }  // namespace

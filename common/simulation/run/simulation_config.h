@@ -91,21 +91,26 @@ struct SimulationConfig {
     v("axis_roll_deg", mirror.axis_roll_deg, "and about x", -10.0, 10.0);
     v("latency_ms", latency_ms, "the laser's lines are late by this against the clock", 0.0, 100.0);
     v("motor_reversed", motor.reversed, "turns the other way");
-    v("motor_fault_from_s", motor_fault.from_s, "the motor does not what the clock says, from", 0.0,
+    v("motor_fault_from_s", motor_fault.from_s, "the motor stops following its clock at this time",
+      0.0, 86'400.0);
+    v("motor_fault_to_s", motor_fault.to_s, "and follows it again from this time on", 0.0,
       86'400.0);
-    v("motor_fault_to_s", motor_fault.to_s, "until", 0.0, 86'400.0);
-    v("motor_fault_gain", motor_fault.gain, "steps for an edge then: 0 stalls, -1 turns back", -1.0,
-      1.0);
-    v("motor_missed_steps", motor_fault.missed_steps, "lost at once when that begins", 0.0, 400.0);
-    v("clock_lost", motor_fault.clock_lost, "then no edge is seen, though the motor turns");
+    v("motor_fault_gain", motor_fault.gain,
+      "steps for each edge in between: 0 stalls, -1 turns back", -1.0, 1.0);
+    v("motor_missed_steps", motor_fault.missed_steps, "steps lost at once when the fault begins",
+      0.0, 400.0);
+    v("clock_lost", motor_fault.clock_lost,
+      "during the fault no edge is seen, though the motor turns");
   }
 
   template <class Visitor>
   void visit_ideal(Visitor& v) {
     v("perfect_deskew", perfect_deskew,
       "ideal clouds are put together by the true motion, not by what the wheels measured");
-    v("cloud_range_max_m", sweep.range_max_m, "of ideal clouds", 1.0, 100.0);
-    v("cloud_range_sd_m", sweep.range_sd_m, "noise of ideal clouds", 0.0, 1.0);
+    v("cloud_range_max_m", sweep.range_max_m, "ideal clouds have no points farther away", 1.0,
+      100.0);
+    v("cloud_range_sd_m", sweep.range_sd_m,
+      "noise of ideal clouds along the beam, standard deviation", 0.0, 1.0);
   }
 };
 

@@ -25,7 +25,7 @@ fs::path made(fs::path folder) {
   return folder;
 }
 
-// By content: the same map has the same id. Positive, and never 0.
+// The map's id follows from its content, so the same map has the same id. It is positive, never 0.
 std::int64_t map_id(const VoxelMap& map) { return static_cast<std::int64_t>(map.hash() >> 1 | 1); }
 
 }  // namespace

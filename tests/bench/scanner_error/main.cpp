@@ -24,7 +24,7 @@ struct Figures {
   Closest drifting, repeating;
 };
 
-// Of two scans by the same side of the mirror.
+// Distances between two scans that the same side of the mirror made.
 Closest measure_closest(const Recording& recording,
                         const scanner::CloudAssemblerConfig& assembler) {
   const std::vector<Cloud> clouds = recording.clouds(assembler);

@@ -21,7 +21,8 @@ std::vector<Vector3d> in_room(const Cloud& first, const Cloud& second) {
   return points;
 }
 
-// Of those within a few centimetres of the true plane, clear of the room's edges.
+// RMS distance from their own plane of the points that lie near a true one and clear of the room's
+// edges.
 double flatness_m(const std::vector<Vector3d>& points, Eigen::Index axis, double at_m) {
   constexpr double kNear_m = 0.2, kFromEdge_m = 0.25;
   Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();

@@ -20,7 +20,8 @@ MatchMode mode_at(const Pose2& pose) {
   return mode;
 }
 
-// Of a pose that agrees with the map, so far from where the robot was; wheels say that it stood.
+// How a pose is judged that agrees with the map but lies `off_m` from where the robot was, while
+// odometry, if there is any, says that it stood.
 PoseTrack::Verdict verdict(double off_m, bool with_odometry) {
   const auto odometry = with_odometry ? std::optional(Pose2{}) : std::nullopt;
   const PoseTrack track(cloud_at(0), odometry, {}, 0.98);

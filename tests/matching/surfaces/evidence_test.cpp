@@ -40,7 +40,7 @@ TEST(Evidence, TellsHitsFromShortReturnsAndFromTheUnknown) {
 TEST(Evidence, CallsARayThroughAWallAViolation) {
   const OccupancyMap map = wall_ahead();
   EXPECT_EQ(of_ray(map, {0.0F, 0.0F, 1.0F}, {4.0F, 0.1F, 1.0F}).violations, 1);
-  // Of the wall that it ends on, and of one beyond its end, a ray says nothing.
+  // A ray says nothing about the wall that it ends on, nor about one beyond its end.
   EXPECT_EQ(of_ray(map, {0.0F, 0.0F, 1.0F}, {2.0F, 0.1F, 1.0F}).violations, 0);
   EXPECT_EQ(of_ray(map, {0.0F, 0.0F, 1.0F}, {1.0F, 0.1F, 1.0F}).violations, 0);
 }

@@ -177,7 +177,8 @@ struct Fuzz {
   std::int64_t whole_scans = 0, damaged_scans = 0, found = 0, invented = 0;
 };
 
-// Of all pairs of flipped bits those that the checksum does not see, by their syndromes.
+// The share of pairs of flipped bits that the checksum does not see: those whose syndromes are
+// equal.
 double share_of_unseen_pairs(std::size_t telegram_bytes) {
   std::map<unsigned, double> bits_with;
   for (std::size_t bit = 0; bit < telegram_bytes * 8; ++bit) {

@@ -46,7 +46,7 @@ struct Laser {
     arrived_us = std::max({arrived_us, stalled_until_us, sent_us + random.uniform(0.0, jitter_us)});
   }
 
-  // By how much the clock's time of the scan is wrong.
+  // Error of the clock's time of the scan (us).
   double error_us(ScanClock& clock, double clock_set_us = 0.0) {
     const auto turn_index = static_cast<std::uint8_t>(turn & 0xFF);
     const std::int64_t stamp_us = clock.first_beam_utime_us(
