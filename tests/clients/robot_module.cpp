@@ -1,10 +1,13 @@
 // A module of the robot, as its author would write it: LCM and the message types are all it needs.
-// Usage: robot_module [N [TIMEOUT_S]]: ends well once N poses and N times obstacles have come.
+// robot_module.py is the same in Python.
+// Usage: robot_module [N [TIMEOUT_S]]: ends well once N poses and N times obstacles have come. With
+// LCM_DEFAULT_URL="file://LOG?speed=0" it reads a recording.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <lcm/lcm-cpp.hpp>
+#include <voxlist/localisation_t.hpp>
 #include <voxlist/obstacles_t.hpp>
 #include <voxlist/pose_t.hpp>
 
@@ -14,11 +17,23 @@ struct RobotModule {
     std::printf("pose: x %.2f m, y %.2f m\n", pose->pos[0], pose->pos[1]);
   }
 
+  void on_localisation(const lcm::ReceiveBuffer*, const std::string&,
+                       const voxlist::localisation_t* found) {
+    const char* state = found->state == voxlist::localisation_t::STATE_TRACKING    ? "tracking"
+                        : found->state == voxlist::localisation_t::STATE_AMBIGUOUS ? "ambiguous"
+                                                                                   : "lost";
+    std::printf("localisation: %s, confidence %.3f\n", state, found->confidence);
+    for (const voxlist::pose_mode_t& mode : found->modes) {
+      std::printf("  x %.2f m, y %.2f m, yaw %.2f rad: %.3f\n", mode.pose[0], mode.pose[1],
+                  mode.pose[2], mode.probability);
+    }
+  }
+
   void on_obstacles(const lcm::ReceiveBuffer*, const std::string&, const voxlist::obstacles_t* o) {
     ++obstacles;
     const auto nearest = std::min_element(o->ranges_m.begin(), o->ranges_m.end());
     if (nearest == o->ranges_m.end()) return;
-    const auto sector = static_cast<float>(nearest - o->ranges_m.begin());
+    const auto sector = static_cast<double>(nearest - o->ranges_m.begin());
     std::printf("nearest obstacle: %.2f m at %.2f rad\n", *nearest, o->rad0 + sector * o->radstep);
   }
 
@@ -32,10 +47,13 @@ int main(int argc, char** argv) {
   if (!lcm.good()) return 2;
   RobotModule module;
   lcm.subscribe("POSE", &RobotModule::on_pose, &module);
+  lcm.subscribe("LOCALISATION", &RobotModule::on_localisation, &module);
   lcm.subscribe("OBSTACLES", &RobotModule::on_obstacles, &module);
 
   const auto end = std::chrono::steady_clock::now() + timeout;
   const auto done = [&] { return module.poses >= wanted && module.obstacles >= wanted; };
-  while (!done() && std::chrono::steady_clock::now() < end) lcm.handleTimeout(100);
+  while (!done() && std::chrono::steady_clock::now() < end) {
+    if (lcm.handleTimeout(100) < 0) break;  // a recording has ended
+  }
   return done() ? 0 : 1;
 }
