@@ -17,10 +17,10 @@ SurfelMap::SurfelMap(const OccupancyMap& map, const SurfelConfig& config)
 }
 
 const Surfel* SurfelMap::find(const Eigen::Vector3d& point, const Eigen::Vector3d& origin,
-                              Place& place) const {
+                              LookUp& last) const {
   const Voxel position = cell_at(point, cubes_per_m_);
-  if (!place.cube || position != place.position) place = {position, &cube_at(position)};
-  const Cube& cube = *place.cube;
+  if (!last.cube || position != last.position) last = {position, &cube_at(position)};
+  const Cube& cube = *last.cube;
   const Surfel* nearest = nullptr;
   double least_m = std::numeric_limits<double>::infinity();
   for (int i = 0; i < cube.count; ++i) {

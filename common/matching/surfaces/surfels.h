@@ -28,13 +28,19 @@ struct Surfel {
 };
 
 struct SurfelConfig {
-  /// Edge of the cubes that are fitted with planes (m); rounded to whole blocks of the map.
+  /// Edge of the cubes that are fitted with planes (m); rounded to whole blocks of the map, 0.16 m.
+  /// Twice a block: it holds a wall that a pose is off by 0.15 m from, and still little else than
+  /// one wall. Smaller: fewer starts converge, and few voxels make a normal. Larger: corners and
+  /// furniture in one cube make it too thick for a surface.
   double cell_m = 0.32;
-  /// Fewest voxels of a cube that make a surface.
+  /// Fewest voxels of a cube that make a surface: a plane has three, and as many more tell its
+  /// thickness. A judgement.
   int min_voxels = 6;
-  /// Largest standard deviation across a surface (m): rough and cluttered cubes are left out.
+  /// Largest standard deviation across a surface (m), about three times a scanner's noise of 0.02
+  /// m: rough and cluttered cubes are left out. Larger: furniture drags poses along.
   double max_thickness_m = 0.06;
-  /// Smallest ratio of the second-largest extent to the thickness: a line of points has no normal.
+  /// Smallest ratio of the second-largest extent to the thickness, both standard deviations: a line
+  /// of points has no normal. A square filled evenly has ten times as much; a judgement.
   double min_flatness = 2.5;
 };
 
@@ -52,8 +58,8 @@ class SurfelMap {
   /// The surfel of the cube that holds `point` that a ray from `origin` (both m, map frame) may
   /// have ended on, the nearest if there are two; nullptr when there is none. Stays where it is.
   const Surfel* find(const Eigen::Vector3d& point, const Eigen::Vector3d& origin) const {
-    Place place;
-    return find(point, origin, place);
+    LookUp last;
+    return find(point, origin, last);
   }
 
  private:
@@ -61,14 +67,14 @@ class SurfelMap {
 
  public:
   /// Where a point was looked up last.
-  struct Place {
+  struct LookUp {
     Voxel position;
     const Cube* cube = nullptr;
   };
 
   /// The same, quicker for a point that is mostly in the same cube as the time before.
   const Surfel* find(const Eigen::Vector3d& point, const Eigen::Vector3d& origin,
-                     Place& place) const;
+                     LookUp& last) const;
 
   /// To be called when the map has changed: cubes are fitted anew when next asked for. (All: a
   /// surfel depends on what rays passed round its cube, and a scan's rays pass most of what the
