@@ -8,7 +8,8 @@
 namespace voxlist {
 namespace {
 
-// What the cells of a scan may take before they go into the map.
+// Bytes that the cells of a scan may take before they go into the map: 2000 tiles of 5 m, more than
+// a scan within a building fills. It bounds memory; results do not depend on it.
 constexpr std::size_t kMaxScanBytes = 64'000'000;
 
 void insert(const Voxel& voxel, VoxelMap& map, std::vector<Voxel>& changed) {

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <compare>
 #include <cstdint>
+#include <string>
+
+#include "voxlist/system/check.h"
 
 namespace voxlist {
 
@@ -23,11 +26,14 @@ struct Voxel {
   auto operator<=>(const Voxel&) const = default;
 };
 
-/// Largest |coordinate| (in voxels) that maps accept: beyond it a point is an outlier, not a place.
+/// Largest |coordinate| (in voxels) that maps accept: 84 km at 0.02 m, beyond which a point is an
+/// outlier, not a place. Larger: keys of blocks (21 bits an axis) and of their corners would
+/// overflow.
 inline constexpr std::int32_t kVoxelLimit = 1 << 22;
 
 /// Integer division that rounds down. Precondition: divisor > 0.
 constexpr std::int32_t floor_div(std::int32_t value, std::int32_t divisor) {
+  VOXLIST_CHECK(divisor > 0, "a divisor must be above 0");
   return value / divisor - (value % divisor < 0 ? 1 : 0);
 }
 
@@ -35,6 +41,8 @@ constexpr std::int32_t floor_div(std::int32_t value, std::int32_t divisor) {
 template <class Point>
 Voxel voxel_at(const Point& p, double resolution_m) {
   const auto cell = [&](double value) {
+    VOXLIST_CHECK(std::abs(value / resolution_m) < 2147483648.0,
+                  "no voxel has coordinate " + std::to_string(value) + " m");
     return static_cast<std::int32_t>(std::floor(value / resolution_m));
   };
   return {cell(p.x()), cell(p.y()), cell(p.z())};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstdlib>
 #include <numeric>
 #include <stdexcept>
 
@@ -20,6 +21,15 @@ std::size_t voxels_in(const VoxelBlock& block) {
   return count;
 }
 
+[[maybe_unused]] bool within_limit(const Voxel& v) {
+  return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}) <= kVoxelLimit;
+}
+
+[[maybe_unused]] bool block_within_limit(const Voxel& block) {
+  constexpr std::int32_t kMost = kVoxelLimit / kBlockEdge;
+  return std::max({std::abs(block.x), std::abs(block.y), std::abs(block.z)}) <= kMost;
+}
+
 std::size_t word_of(const Voxel& v) { return static_cast<std::size_t>(v.z & 7); }
 std::uint64_t bit_of(const Voxel& v) { return std::uint64_t{1} << ((v.x & 7) + 8 * (v.y & 7)); }
 
@@ -30,6 +40,7 @@ VoxelMap::VoxelMap(double resolution_m) : resolution_m_(resolution_m), revision_
 }
 
 bool VoxelMap::insert(const Voxel& voxel) {
+  VOXLIST_CHECK(within_limit(voxel), "a voxel beyond kVoxelLimit");
   std::uint64_t& word = find_or_add(block_of(voxel))[word_of(voxel)];
   const std::uint64_t bit = bit_of(voxel);
   if (word & bit) return false;
@@ -40,6 +51,7 @@ bool VoxelMap::insert(const Voxel& voxel) {
 }
 
 bool VoxelMap::set_block(const Voxel& block, const VoxelBlock& bits) {
+  VOXLIST_CHECK(block_within_limit(block), "a block beyond kVoxelLimit");
   VoxelBlock& held = find_or_add(block);
   if (held == bits) return false;
   size_ = size_ - voxels_in(held) + voxels_in(bits);
@@ -49,6 +61,7 @@ bool VoxelMap::set_block(const Voxel& block, const VoxelBlock& bits) {
 }
 
 bool VoxelMap::merge_block(const Voxel& block, const VoxelBlock& bits) {
+  VOXLIST_CHECK(block_within_limit(block), "a block beyond kVoxelLimit");
   VoxelBlock& held = find_or_add(block);
   const std::size_t before = voxels_in(held);
   for (std::size_t i = 0; i < held.size(); ++i) held[i] |= bits[i];

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstdlib>
 
+#include "voxlist/system/check.h"
 #include "voxlist/voxels/voxel.h"
 
 namespace voxlist {
@@ -53,6 +54,8 @@ struct RayAxis {
 template <class Visit>
 void visit_ray(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double resolution_m,
                const Visit& visit) {
+  VOXLIST_CHECK(in_lattice(from, resolution_m) && in_lattice(to, resolution_m),
+                "a ray's ends must be in the lattice");
   const Voxel first = voxel_at(from, resolution_m), last = voxel_at(to, resolution_m);
   RayAxis x(from.x(), to.x(), first.x, last.x, resolution_m);
   RayAxis y(from.y(), to.y(), first.y, last.y, resolution_m);

@@ -26,7 +26,7 @@ struct BitCounters {
   }
 
  private:
-  // Into the planes below the eights; returns the carry, of eights.
+  // Adds into the planes of ones, twos and fours; returns the carry into the eights.
   Word add_to_8(const Word* w) {
     Word c0, c1, c2, c3, d0, d1, e;
     Word s = full_add(planes[0], w[0], w[1], c0);

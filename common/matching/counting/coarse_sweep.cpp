@@ -1,6 +1,9 @@
 #include "voxlist/matching/counting/coarse_sweep.h"
 
+#include <string>
+
 #include "voxlist/matching/counting/coarse_sweep_kernel.h"
+#include "voxlist/system/check.h"
 
 namespace voxlist::matching {
 
@@ -26,6 +29,8 @@ Instructions best_instructions() {
 NodeCounts coarse_sweep(const CoarseMap& map, std::vector<std::int64_t> bits,
                         Instructions instructions) {
   static_assert(kSweepPlanes == kCountPlanes);
+  VOXLIST_CHECK(bits.size() < std::size_t{1} << kCountPlanes,
+                std::to_string(bits.size()) + " cells overflow the counters");
   bits.resize((bits.size() + kSweptAtOnce - 1) / kSweptAtOnce * kSweptAtOnce, map.free_bit());
   const std::size_t vector_words = words_of(instructions);
   const auto nodes = static_cast<std::size_t>((map.size_y() - 1) * map.row_bits() + map.size_x());

@@ -7,13 +7,14 @@
 
 namespace voxlist::matching {
 
-/// Bit planes of a count.
+/// Bit planes of a count, which is then below 2^10: searches take up to 1023 points. More planes
+/// make every count slower.
 inline constexpr std::size_t kCountPlanes = 10;
 
 /// Counts of all nodes, in bit planes: node (x, y)'s count has its bit p at bit y * row_bits + x of
 /// plane p. Between the rows there are counts of no meaning.
 struct NodeCounts {
-  std::size_t words = 0;  ///< of a plane
+  std::size_t words = 0;  ///< words of a plane
   std::vector<std::uint64_t> planes;
 };
 

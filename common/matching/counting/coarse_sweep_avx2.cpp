@@ -1,4 +1,4 @@
-// Compiled for this instruction set; called only where the processor has it.
+// This file is compiled for its instruction set, and called only where the processor has that.
 #include "voxlist/matching/counting/coarse_sweep_kernel.h"
 
 namespace voxlist::matching {

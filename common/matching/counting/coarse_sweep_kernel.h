@@ -20,15 +20,16 @@ inline constexpr std::size_t kSweptAtOnce = 16;
 /// One sweep as plain numbers: counter i counts the marked ones among the map's bits at `bits` + i.
 struct SweepJob {
   const std::uint64_t* map;
-  std::size_t words;  ///< of counters, a multiple of the vector's
+  std::size_t words;  ///< of 64 counters each, a multiple of the vector's words
   const std::int64_t* bits;
-  std::size_t size;    ///< of bits, a multiple of kSweptAtOnce
+  std::size_t size;    ///< how many `bits` there are, a multiple of kSweptAtOnce
   std::uint64_t* out;  ///< planes one after the other, `words` each
 };
 
 namespace {
 
-// The bits from one on: from its byte and from the next one. Where both hold a bit, they agree.
+// Loads the bits from one on: from its byte and from the next one. Where both hold a bit, they
+// agree.
 template <class Word>
 Word load_bits(const std::uint64_t* words, std::int64_t bit) {
   static_assert(std::endian::native == std::endian::little);

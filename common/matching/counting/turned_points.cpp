@@ -10,10 +10,11 @@ namespace {
 
 constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
-// So that rounding never makes a point move by more than a cell.
+// There are so many times the angles that exact arithmetic would need, so that rounding (of floats,
+// 1e-7) never makes a point move by more than a cell from one angle to the next. Bounds rest on it.
 constexpr double kSlack = 1.001;
 
-// std::floor without a call.
+// This is std::floor without a call.
 std::int32_t rounded_down(float value) {
   const auto whole = static_cast<std::int32_t>(value);
   return whole - (value < static_cast<float>(whole) ? 1 : 0);
@@ -46,7 +47,7 @@ class TurnedPoints::Turn {
     Cell low, high;
   };
 
-  // Of all cells.
+  // The box of all cells.
   static Box box(const Cells& cells) {
     Box box{cells[0], cells[0]};
     for (const Cell& cell : cells) {
@@ -56,7 +57,7 @@ class TurnedPoints::Turn {
     return box;
   }
 
-  // Of the cells of each part.
+  // The box of each part's cells.
   static std::array<Box, kParts> boxes(const Cells& cells) {
     std::array<Box, kParts> boxes;
     for (std::size_t part = kParts; part-- > 0;) {
@@ -100,7 +101,8 @@ std::vector<std::int64_t> TurnedPoints::coarse_cells(std::int32_t group,
   bits.reserve(points_.size());
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const auto [low, high] = turn.box(turn.cells(points_[i]));
-    // Beyond 16 cells from the coarse cell's start at the node's last translation.
+    // A point takes the wide grid when it comes beyond 16 cells from its coarse cell's start at the
+    // node's last translation.
     constexpr std::int32_t kFactor = CoarseMap::kFactor;
     const std::int32_t x = floor_div(low.x, kFactor), y = floor_div(low.y, kFactor);
     bits.push_back(

@@ -49,7 +49,7 @@ class TurnedPoints {
   };
   using Cells = std::array<Cell, kGroup>;
 
-  // Of a point, at a group's angles.
+  // Turns a point by a group's angles.
   class Turn;
 
   void make_places(std::int32_t group);

@@ -17,11 +17,11 @@ inline constexpr std::size_t kWindowPlanes = 10;
 /// Points to be turned, as plain numbers: arrays of `size`.
 struct TurnJob {
   const double *x_m, *y_m;
-  const std::int64_t* base;  ///< of each point: place of the cell (0, 0) in its layer
+  const std::int64_t* base;  ///< for each point the place of cell (0, 0) in its layer
   std::size_t size;
   double cosine, sine, cells_per_m;
   std::int32_t row_bytes;
-  std::int64_t moved;
+  std::int64_t moved;    ///< added to every place
   std::int64_t* places;  ///< out
 };
 
@@ -41,7 +41,8 @@ inline void turn_points(const TurnJob& job) {
     const auto whole = static_cast<std::int32_t>(value);
     return whole - (value < whole ? 1 : 0);
   };
-  // Copies: what is written could be the job else, and the loop would be no vector's.
+  // The job is copied, and `places` is marked as its own memory: otherwise what the loop writes
+  // might be the job itself, and the compiler would not use vectors.
   const TurnJob j = job;
   std::int64_t* __restrict places = j.places;
   for (std::size_t i = 0; i < j.size; ++i) {
@@ -64,7 +65,7 @@ Word join(const Row& low, const Row& high, std::index_sequence<kIndices...>) {
   return __builtin_shufflevector(low, high, kIndices...);
 }
 
-// Groups are one row of tiles, or two where a word holds that.
+// A word holds the tiles of a group: one row of them, or two rows where it is twice as wide as Row.
 template <class Word, class Row>
 void count_group(const CountJob& job) {
   constexpr std::size_t kTiles = sizeof(Word) / sizeof(std::uint64_t);

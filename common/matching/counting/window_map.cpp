@@ -10,13 +10,17 @@
 namespace voxlist::matching {
 namespace {
 
-// A margin all round: blocks near the edge mark cells beyond it.
+// Cells round the ground that can be written: a block marks one cell beyond itself on each side,
+// and the seven rows before that see it.
 constexpr std::int32_t kMargin = 16;
-// Edge of the patches whose occupied cells are counted.
+// Edge (cells) of the patches that are made ready, and whose occupied cells are counted, at once:
+// 2.56 m at 0.08 m, about what a robot comes to see anew from scan to scan. It changes speed, and
+// what a significance's volume is rounded to.
 constexpr std::int32_t kPatch = 32;
-// Room for so many cells more on each side, so that it serves while the robot moves on.
+// Cells of room beyond what is asked for, on each side: 20 m at 0.08 m, so that it serves while the
+// robot moves on. More costs address space; less makes the whole window ready more often.
 constexpr std::int32_t kMore = 8 * kPatch;
-// Layers below and above, for a map that grows.
+// Layers below and above the map's, so that a map that grows a little keeps its room.
 constexpr std::int32_t kSpareLayers = 2;
 
 CellRectangle whole_patches(const CellRectangle& r) {
@@ -34,8 +38,8 @@ Voxel patch_of(std::int32_t x, std::int32_t y) {
   return {floor_div(x, kPatch), floor_div(y, kPatch), 0};
 }
 
-// What a block occupies, from the column before it to the one behind (a byte each) and from the row
-// before it to the one behind (bits 0 to 3 of each byte).
+// The cells that a block marks: a byte for each column from the one before it to the one behind,
+// bits 0 to 3 of it for the rows from the one before it to the one behind.
 std::uint32_t occupied_cells(const VoxelBlock& bits) {
   std::uint64_t plan = 0;
   for (const std::uint64_t word : bits) plan |= word;
@@ -133,7 +137,7 @@ void WindowMap::make_room(const CellRectangle& ground) {
   const bool empty = highest < lowest;
   lowest_z_ = empty ? 0 : lowest - kSpareLayers;
   size_z_ = empty ? 0 : highest + kSpareLayers + 1 - lowest_z_;
-  // Pages that nobody touches cost nothing.
+  // Memory that calloc gives costs nothing until it is touched.
   const auto bytes = static_cast<std::size_t>(size_x_) * static_cast<std::size_t>(size_y_) *
                      static_cast<std::size_t>(size_z_);
   columns_.reset(static_cast<std::uint8_t*>(std::calloc(bytes + 1, 1)));
@@ -160,7 +164,7 @@ void WindowMap::mark(const Voxel& block, const VoxelBlock& bits) {
     held |= wanted;
     std::memcpy(row + d * std::int64_t{size_x_}, &held, sizeof held);
   }
-  // Rows before it that see it.
+  // The rows before it see its cells, too.
   for (int d = 1; d < kTile; ++d) {
     row -= size_x_;
     std::uint32_t held;

@@ -40,6 +40,9 @@ class WindowMap {
   /// To be called when these blocks of the map have gained voxels, and none have lost any.
   void map_grew(const std::vector<Voxel>& blocks);
 
+  /// Whether a rectangle lies on ground that was held, so that tiles of it can be read.
+  bool holds(const CellRectangle& rectangle) const { return columns_ && ground_.holds(rectangle); }
+
   static double cell_m(const VoxelMap& map) { return map.resolution_m() * kBlockEdge / 2; }
   static double layer_m(const VoxelMap& map) { return map.resolution_m() * kBlockEdge; }
 
@@ -94,7 +97,7 @@ class WindowMap {
   std::size_t listed_ = 0;  // blocks of the map that patches know of
   Numbering<Voxel> patch_positions_;
   std::vector<Patch> patches_;
-  CellRectangle ground_;  // that there is room for
+  CellRectangle ground_;  // there is room for it
   std::int32_t low_x_ = 0, low_y_ = 0, size_x_ = 0, size_y_ = 0, lowest_z_ = 0, size_z_ = 0;
   std::unique_ptr<std::uint8_t[], Free> columns_;
   std::vector<std::int32_t> occupied_;  // cells of each patch, by layer, y, x

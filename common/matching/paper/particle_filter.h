@@ -16,25 +16,26 @@
 // Where the paper contradicts itself, this is what is done:
 // - The first level is 2^6 x 0.02 = 1.28 m (the text says 1.24 m).
 // - Poses are integers (ix, iy, itheta), so that equal poses are equal; the paper keeps sets of
-// real numbers.
+// real
+//   numbers.
 // - 2 pi / dtheta is no integer: the circle is divided into the next larger number of steps, which
-// doubles from level
-//   to level so that angles nest, and itheta is taken modulo that number.
+//   doubles from level to level so that angles nest, and itheta is taken modulo that number.
 // - Re-sampling moves by one step of the new level in x, y and theta, as Algorithm 1 says (eps / 2,
-// dtheta / 2);
-//   Algorithm 4 turns by the whole old dtheta, with which angles would never get finer.
+//   dtheta / 2); Algorithm 4 turns by the whole old dtheta, with which angles would never get
+//   finer.
 // - Algorithm 3 compares with w_max but assigns another variable: here w_max is updated.
 // - Pruning is relative to the largest weight ("mode" in Algorithm 1, "maximum weight" in the
 // text).
 // - Points are turned and then put into voxels, at every level; turned voxels would be quantised
-// twice.
+//   twice.
 // - Math.round biases down-sampling by half a voxel: the lattice of voxels/voxel.h nests without
-// bias.
+//   bias.
 
 namespace voxlist::matching {
 
 struct ParticleFilterConfig {
-  /// Particles below this share of the largest weight are removed, 0..1.
+  /// Particles below this share of the largest weight are removed, 0..1: the paper's 80 % (section
+  /// III, Algorithm 1). Higher: faster, and the true pose is lost at a coarse level more often.
   double prune_share = 0.8;
   /// Voxels of the first and of the last level, in voxels of the map. Powers of two, final <=
   /// coarsest. With a 0.02 m map: 64 is 1.28 m; 4 is 0.08 m, where the paper itself found its best

@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "voxlist/system/check.h"
+
 namespace voxlist::matching {
 namespace {
 
@@ -127,6 +129,7 @@ double log10_overlap_tail(const ChanceModel& model, std::int64_t overlap) {
 }
 
 double log10_best_of(double log10_tail, double poses) {
+  VOXLIST_CHECK(poses >= 1.0, std::to_string(poses) + " poses");
   return std::min(0.0, log10_tail + std::log10(poses));
 }
 

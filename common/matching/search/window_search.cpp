@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <tuple>
 
 #include "voxlist/matching/counting/window_count.h"
+#include "voxlist/system/check.h"
 
 namespace voxlist::matching {
 namespace {
@@ -44,7 +47,7 @@ struct Lattice {
   std::int64_t poses() const { return std::int64_t{angles} * tiles_x * tiles_y * kTile * kTile; }
 };
 
-// The tiles of one angle, by rows of tiles: visit(tile_x, tile_y, counters).
+// Calls visit(tile_x, tile_y, counters) for the tiles of one angle, group by group.
 template <class Visit>
 void visit_tiles(const WindowCount& count, const Lattice& lattice, std::int32_t angle,
                  const Visit& visit) {
@@ -69,7 +72,7 @@ struct CountedPose {
   auto rank() const { return std::tuple(-count, angle, y, x); }
 };
 
-// All poses with at least `least`, best first. `best`: of each angle.
+// All poses with at least `least`, best first. `best` has the largest count of each angle.
 std::vector<CountedPose> poses_above(const WindowCount& count, const Lattice& lattice,
                                      const std::vector<int>& best, int least) {
   std::vector<CountedPose> poses;
@@ -101,6 +104,10 @@ SearchResult search_window(const WindowMap& map, double cell_m, const MatchPoint
                            Instructions instructions) {
   SearchResult result;
   if (points.points.empty() || map.layers() == 0) return result;
+  VOXLIST_CHECK(points.points.size() < std::size_t{1} << kCountPlanes,
+                std::to_string(points.points.size()) + " points overflow the counters");
+  VOXLIST_CHECK(map.holds(needed_ground(cell_m, points.radius_m, window)),
+                "the map does not hold the ground of the window");
   const Lattice lattice(cell_m, points.radius_m, window);
   const WindowCount count(map, cell_m, points, instructions);
   std::vector<int> best_of_angles(static_cast<std::size_t>(lattice.angles));

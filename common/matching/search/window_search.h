@@ -15,7 +15,7 @@ SearchResult search_window(const WindowMap& map, double cell_m, const MatchPoint
                            const PoseWindow& window, const SearchConfig& config,
                            Instructions instructions = best_instructions());
 
-/// Where the points can come to lie at the window's poses.
+/// The ground on which points within radius_m of base can come to lie at the window's poses.
 CellRectangle needed_ground(double cell_m, double radius_m, const PoseWindow& window);
 
 }  // namespace voxlist::matching

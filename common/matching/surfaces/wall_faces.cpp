@@ -15,8 +15,8 @@ constexpr double kSmallestGap_m = 0.05;
 // limit lies below both.
 constexpr double kMostVarianceLeft = 0.2;
 
-// Most steps of the search for the best cut. Most cuts stand still after two or three; a cut that
-// does not is taken as it is.
+// Most steps of the search for the best cut: a bound. A cut that still moves then is taken as it
+// is.
 constexpr int kMostSteps = 6;
 
 struct Layers {
