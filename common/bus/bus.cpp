@@ -1,5 +1,7 @@
 #include "voxlist/bus/bus.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cctype>
 #include <map>
@@ -124,8 +126,8 @@ bool is_recording(const std::string& url) { return url.starts_with(kFileScheme);
 
 Bus::Bus(const BusOptions& options) : impl_(std::make_unique<Impl>()) {
   if (!is_plain(options.prefix)) {
-    throw std::runtime_error("bus: channel prefix '" + options.prefix +
-                             "' may only hold letters, digits, _ - and /");
+    throw std::runtime_error(fmt::format(
+        "bus: channel prefix '{}' may only hold letters, digits, _ - and /", options.prefix));
   }
   impl_->prefix = options.prefix;
   impl_->transport = is_recording(options.url) ? open_log(log_path(options.url))
@@ -148,7 +150,8 @@ void Bus::count_unsent(const std::string& channel, const char* reason) {
 void Bus::subscribe_encoded(const std::string& channel, Check check, Take take, Delivery delivery) {
   const std::string wire_name = impl_->prefix + channel;
   if (!is_plain(channel) || wire_name.size() > kMaxChannelName) {
-    throw std::runtime_error("bus: channel name " + wire_name + " is longer than 63 or not plain");
+    throw std::runtime_error(
+        fmt::format("bus: channel name {} is longer than 63 or not plain", wire_name));
   }
   if (impl_->subscriptions.contains(wire_name)) {
     throw std::logic_error("bus: subscribed twice to " + wire_name);

@@ -1,6 +1,7 @@
 #include "voxlist/bus/event_log.h"
 
 #include <fcntl.h>
+#include <fmt/core.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -36,7 +37,7 @@ void append_big_endian(std::uint64_t value, int bytes, std::vector<std::uint8_t>
 }
 
 std::string system_error(const std::string& doing, const std::string& path) {
-  return "cannot " + doing + ' ' + path + ": " + std::strerror(errno);
+  return fmt::format("cannot {} {}: {}", doing, path, std::strerror(errno));
 }
 
 }  // namespace
@@ -54,7 +55,7 @@ EventLogReader::EventLogReader(const std::string& path)
   if (fd_ < 0) throw std::runtime_error(system_error("open log", path));
   if (fstat(fd_, &status) != 0 || !S_ISREG(status.st_mode)) {
     close(fd_);
-    throw std::runtime_error("cannot open log " + path + ": not a file");
+    throw std::runtime_error(fmt::format("cannot open log {}: not a file", path));
   }
   size_ = status.st_size;
 }
@@ -149,7 +150,7 @@ EventLogWriter::EventLogWriter(std::string path)
 }
 
 void EventLogWriter::write(const std::string& channel, std::int64_t utime_us, Bytes bytes) {
-  if (!file_) throw std::logic_error("log " + path_ + " is closed");
+  if (!file_) throw std::logic_error(fmt::format("log {} is closed", path_));
   std::vector<std::uint8_t> header(kSync.begin(), kSync.end());
   append_big_endian(static_cast<std::uint64_t>(events_++), 8, header);
   append_big_endian(static_cast<std::uint64_t>(utime_us), 8, header);
@@ -171,8 +172,8 @@ void EventLogWriter::fail(const char* doing) const {
 }
 
 void EventLogWriter::refuse(const std::string& channel, Fault fault) const {
-  throw std::runtime_error("cannot write log " + path_ + ": message on " + channel +
-                           " is wrong: " + fault_name(fault));
+  throw std::runtime_error(fmt::format("cannot write log {}: message on {} is wrong: {}", path_,
+                                       channel, fault_name(fault)));
 }
 
 }  // namespace voxlist::bus

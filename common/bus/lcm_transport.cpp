@@ -1,4 +1,5 @@
 #include <arpa/inet.h>
+#include <fmt/core.h>
 #include <lcm/lcm.h>
 #include <poll.h>
 #include <sys/socket.h>
@@ -25,7 +26,7 @@ bool is_multicast(const std::string& url) { return url.starts_with("udpm://"); }
 std::string with_receive_buffer(const std::string& url, int bytes) {
   if (!is_multicast(url) || url.find("recv_buf_size=") != std::string::npos) return url;
   const char* separator = url.find('?') == std::string::npos ? "?" : "&";
-  return url + separator + "recv_buf_size=" + std::to_string(bytes);
+  return fmt::format("{}{}recv_buf_size={}", url, separator, bytes);
 }
 
 // The receive buffer that the kernel gives when asked for this much: it clamps silently. Read back
@@ -46,10 +47,9 @@ void warn_of_small_buffer(int wanted, std::vector<std::string>& warnings) {
   const int granted = granted_receive_buffer(wanted);
   if (granted >= wanted) return;
   warnings.push_back(
-      "bus: receive buffer is " + std::to_string(granted) + " B instead of " +
-      std::to_string(wanted) +
-      " B, large messages may be lost; allow more with: sysctl -w net.core.rmem_max=" +
-      std::to_string(wanted));
+      fmt::format("bus: receive buffer is {} B instead of {} B, large messages may be lost; allow "
+                  "more with: sysctl -w net.core.rmem_max={}",
+                  granted, wanted, wanted));
 }
 
 [[noreturn]] void fail_to_open(const std::string& url) {

@@ -1,9 +1,9 @@
 #include "voxlist/calibration/preconditions.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 
 namespace voxlist::calibration {
@@ -32,13 +32,6 @@ constexpr double kThickSurface_m = 0.03;
 constexpr double kSurprisingInPlausible = 2.0;
 constexpr double kUnknownInPlausible = 0.3;
 
-template <class... Values>
-std::string text(const char* format, Values... values) {
-  std::array<char, 400> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), format, values...);
-  return buffer.data();
-}
-
 std::optional<std::string> moved(const std::vector<StampedPose2>& odometry) {
   double far_m = 0.0, far_rad = 0.0;
   for (const StampedPose2& pose : odometry) {
@@ -46,8 +39,8 @@ std::optional<std::string> moved(const std::vector<StampedPose2>& odometry) {
     far_rad = std::max(far_rad, turn_rad(pose.pose, odometry.front().pose));
   }
   if (far_m <= kStands_m && far_rad <= kStands_rad) return std::nullopt;
-  return text("the robot moved by %.3f m and %.2f deg, let it stand still for a minute", far_m,
-              far_rad / kRadPerDeg);
+  return fmt::format("the robot moved by {:.3f} m and {:.2f} deg, let it stand still for a minute",
+                     far_m, far_rad / kRadPerDeg);
 }
 
 double share_of_side(const std::vector<MirrorBeam>& beams, const ParameterVector& parameters,
@@ -62,10 +55,10 @@ double share_of_side(const std::vector<MirrorBeam>& beams, const ParameterVector
 
 std::string refusal_of(const ParameterInfo& info, double sd) {
   if (sd > kUnknownInPlausible * info.plausible)
-    return text("%s: cannot be told from this log; %s", info.key, info.advice);
-  return text("%s: known only to +-%.*f %s, needed are %.*f; %s", info.key, info.decimals,
-              sd * info.file_units, info.unit, info.decimals, info.limit * info.file_units,
-              info.advice);
+    return fmt::format("{}: cannot be told from this log; {}", info.key, info.advice);
+  return fmt::format("{}: known only to +-{:.{}f} {}, needed are {:.{}f}; {}", info.key,
+                     sd * info.file_units, info.decimals, info.unit, info.limit * info.file_units,
+                     info.decimals, info.advice);
 }
 
 // The mirror's slow and fast speed, and whether they are two.
@@ -97,11 +90,11 @@ std::vector<std::string> unusable(const CalibrationInput& input, const BeamSet& 
   std::vector<std::string> refusals;
   if (set.lines < min_lines) {
     refusals.push_back(
-        text("%zu lines of LASER with a LOCKED mirror are fewer than %zu (%zu more "
-             "have none), record a minute and see that mirror_monitor says LOCKED",
-             set.lines, min_lines, set.lines_without_mirror));
+        fmt::format("{} lines of LASER with a LOCKED mirror are fewer than {} ({} more "
+                    "have none), record a minute and see that mirror_monitor says LOCKED",
+                    set.lines, min_lines, set.lines_without_mirror));
   } else if (set.beams.size() < kMinBeams) {
-    refusals.push_back(text("only %zu beams met anything, check LASER", set.beams.size()));
+    refusals.push_back(fmt::format("only {} beams met anything, check LASER", set.beams.size()));
   }
   if (auto why = moved(input.odometry)) refusals.push_back(std::move(*why));
   return refusals;
@@ -119,18 +112,18 @@ Held held_parameters(const std::vector<MirrorBeam>& beams, const ParameterVector
         "hold for this speed; to tell them apart record half of the log at another speed");
   } else if (speeds.latency_sd_s(mirror_wander_rad) > latency.limit) {
     held.parameters[kLatency] = true;
-    held.reasons.push_back(
-        text("latency_ms is held: MIRROR wandered by %.3f deg, which is %.2f ms between the two "
-             "speeds; to tell it record some minutes at each",
-             mirror_wander_rad / kRadPerDeg,
-             speeds.latency_sd_s(mirror_wander_rad) * latency.file_units));
+    held.reasons.push_back(fmt::format(
+        "latency_ms is held: MIRROR wandered by {:.3f} deg, which is {:.2f} ms between the two "
+        "speeds; to tell it record some minutes at each",
+        mirror_wander_rad / kRadPerDeg,
+        speeds.latency_sd_s(mirror_wander_rad) * latency.file_units));
   }
   for (const int side : {0, 1}) {
     if (share_of_side(beams, start, side) > kUsedSide) continue;
     held.parameters[side == 0 ? kPhase0 : kPhase1] = true;
     held.parameters[side == 0 ? kOffset0 : kOffset1] = true;
     held.reasons.push_back(
-        text("side %d of the mirror is not in use: what belongs to it is held", side));
+        fmt::format("side {} of the mirror is not in use: what belongs to it is held", side));
   }
   return held;
 }
@@ -167,15 +160,15 @@ std::vector<std::string> warnings_of(const CalibrationAnswer& answer,
                                      const ParameterVector& start) {
   std::vector<std::string> warnings;
   if (answer.thickness_after_m > kThickSurface_m)
-    warnings.push_back(
-        text("surfaces stay %.0f mm thick, does the robot sway?", answer.thickness_after_m * 1e3));
+    warnings.push_back(fmt::format("surfaces stay {:.0f} mm thick, does the robot sway?",
+                                   answer.thickness_after_m * 1e3));
   for (std::size_t i = 0; i < kParameterInfos.size(); ++i) {
     const ParameterInfo& info = kParameterInfos[i];
     const int k = static_cast<int>(i);
     const double change = answer.parameters[k] - start[k];
     if (std::abs(change) > kSurprisingInPlausible * info.plausible)
-      warnings.push_back(text("%s changed by %.*f %s, is the start value right?", info.key,
-                              info.decimals, change * info.file_units, info.unit));
+      warnings.push_back(fmt::format("{} changed by {:.{}f} {}, is the start value right?",
+                                     info.key, change * info.file_units, info.decimals, info.unit));
   }
   return warnings;
 }

@@ -1,5 +1,6 @@
 #include "voxlist/config/edit.h"
 
+#include <fmt/core.h>
 #include <toml++/toml.h>
 
 #include <algorithm>
@@ -24,8 +25,8 @@ toml::table parse(const std::string& text) {
   try {
     return toml::parse(text);
   } catch (const toml::parse_error& error) {
-    throw std::runtime_error("line " + std::to_string(error.source().begin.line) + ": " +
-                             std::string(error.description()));
+    throw std::runtime_error(
+        fmt::format("line {}: {}", error.source().begin.line, error.description()));
   }
 }
 
@@ -82,7 +83,7 @@ std::string with_numbers(const std::string& text, const std::string& table,
   Editor editor(text);
   if (document.contains(table) &&
       (found == nullptr || !editor.starts_with_bracket(found->source().begin.line)))
-    throw std::runtime_error("write the keys of " + table + " under a line [" + table + "]");
+    throw std::runtime_error(fmt::format("write the keys of {0} under a line [{0}]", table));
 
   std::vector<std::string> added;
   if (found == nullptr && !text.empty()) added.emplace_back();

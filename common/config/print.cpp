@@ -1,3 +1,5 @@
+#include <fmt/core.h>
+
 #include <charconv>
 
 #include "voxlist/config/config.h"
@@ -80,15 +82,15 @@ class TextVisitor : public SettingsVisitor {
 class TomlPrinter : public TextVisitor {
   void line(const std::string& key, const std::string& value, const std::string& doc,
             const std::string& range) override {
-    text += "# " + doc + (range.empty() ? "" : " (" + range + ")") + "\n";
-    text += key + " = " + value + "\n";
+    text +=
+        fmt::format("# {}{}\n{} = {}\n", doc, range.empty() ? "" : " (" + range + ")", key, value);
   }
 };
 
 class MarkdownPrinter : public TextVisitor {
   void line(const std::string& key, const std::string& value, const std::string& doc,
             const std::string& range) override {
-    text += "| `" + key + "` | `" + value + "` | " + range + " | " + doc + " |\n";
+    text += fmt::format("| `{}` | `{}` | {} | {} |\n", key, value, range, doc);
   }
 };
 
@@ -99,7 +101,7 @@ std::string to_toml(const std::vector<Section>& sections) {
   for (const Section& section : sections) {
     TomlPrinter printer;
     section.visit(printer);
-    text += (text.empty() ? "[" : "\n[") + section.name + "]\n" + printer.text;
+    text += fmt::format("{}[{}]\n{}", text.empty() ? "" : "\n", section.name, printer.text);
   }
   return text;
 }

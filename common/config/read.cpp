@@ -1,7 +1,8 @@
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <iterator>
 #include <set>
-#include <sstream>
 #include <stdexcept>
 #include <utility>
 
@@ -49,12 +50,9 @@ struct Kind<std::string> {
   }
 };
 
-template <class T>
-std::string shown(T value) {
-  std::ostringstream text;
-  text << value;
-  return text.str();
-}
+// A double as a stream would print it: six digits.
+std::string shown(double value) { return fmt::format("{:g}", value); }
+std::string shown(int value) { return fmt::format("{}", value); }
 
 std::string listed(const std::set<std::string>& names) {
   std::string text;
@@ -95,8 +93,9 @@ class Reader : public SettingsVisitor {
     for (const auto& [key, node] : table_) {
       const std::string text(key.str());
       if (keys_.contains(text)) continue;
-      all.push_back(complaint(file_, key.source().begin.line,
-                              "no key " + name_ + "." + text + "; known are " + listed(keys_)));
+      all.push_back(
+          complaint(file_, key.source().begin.line,
+                    fmt::format("no key {}.{}; known are {}", name_, text, listed(keys_))));
     }
     return all;
   }
@@ -132,7 +131,8 @@ class Reader : public SettingsVisitor {
   template <class T>
   void check_range(const toml::node& node, const char* key, T value, T min, T max) {
     if (value >= min && value <= max) return;
-    complain(node, key, "is " + shown(value) + ", must be " + shown(min) + " to " + shown(max));
+    complain(node, key,
+             fmt::format("is {}, must be {} to {}", shown(value), shown(min), shown(max)));
   }
 
   const toml::node* find(const char* key) {
@@ -142,7 +142,7 @@ class Reader : public SettingsVisitor {
 
   const toml::node* complain(const toml::node& node, const char* key, const std::string& what) {
     complaints_.push_back(
-        complaint(file_, node.source().begin.line, name_ + "." + key + " " + what));
+        complaint(file_, node.source().begin.line, fmt::format("{}.{} {}", name_, key, what)));
     return nullptr;
   }
 
@@ -161,9 +161,9 @@ std::vector<std::string> check_tables(const std::filesystem::path& file, const t
     const auto line = key.source().begin.line;
     if (!known.contains(name)) {
       complaints.push_back(
-          complaint(file, line, "no table [" + name + "]; known are " + listed(known)));
+          complaint(file, line, fmt::format("no table [{}]; known are {}", name, listed(known))));
     } else if (!node.is_table()) {
-      complaints.push_back(complaint(file, line, name + " must be a table: [" + name + "]"));
+      complaints.push_back(complaint(file, line, fmt::format("{0} must be a table: [{0}]", name)));
     }
   }
   return complaints;

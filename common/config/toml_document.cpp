@@ -1,5 +1,7 @@
 #include "voxlist/config/toml_document.h"
 
+#include <fmt/core.h>
+
 #include <fstream>
 
 namespace voxlist::config {
@@ -36,7 +38,7 @@ bool is_repeated_key(const std::string& line) {
 
 std::string complaint(const std::filesystem::path& file, toml::source_index line,
                       const std::string& what) {
-  return file.string() + ":" + std::to_string(line) + ": " + what;
+  return fmt::format("{}:{}: {}", file.string(), line, what);
 }
 
 TomlDocument parse_toml(const std::filesystem::path& file) {

@@ -1,6 +1,7 @@
 #include "voxlist/mapping/map_store.h"
 
 #include <fcntl.h>
+#include <fmt/core.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <zlib.h>
@@ -108,7 +109,7 @@ std::optional<Keyframe> take_record(std::string_view& bytes) {
 }
 
 std::string system_error(const char* doing) {
-  return std::string(doing) + ": " + std::strerror(errno);
+  return fmt::format("{}: {}", doing, std::strerror(errno));
 }
 
 void write_all(int fd, std::string_view bytes) {
@@ -153,9 +154,8 @@ StoredMap load_map(const std::filesystem::path& folder) {
     }
   }
   if (damaged > 0) {
-    stored.warning = path.string() + ": left out " + std::to_string(damaged) +
-                     " damaged records; " + std::to_string(stored.keyframes.size()) +
-                     " keyframes are whole";
+    stored.warning = fmt::format("{}: left out {} damaged records; {} keyframes are whole",
+                                 path.string(), damaged, stored.keyframes.size());
   }
   return stored;
 }

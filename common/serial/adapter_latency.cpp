@@ -1,5 +1,7 @@
 #include "voxlist/serial/adapter_latency.h"
 
+#include <fmt/core.h>
+
 #include <fstream>
 #include <optional>
 
@@ -28,9 +30,10 @@ std::string quicken_adapter(const std::filesystem::path& port, const std::filesy
   std::ofstream(timer) << kLatency_ms;
   const auto now_ms = number_in(timer);
   if (now_ms && *now_ms <= kLatency_ms) return "";
-  return port.string() + ": its USB adapter holds bytes back for " + std::to_string(*before_ms) +
-         " ms: write " + std::to_string(kLatency_ms) + " to " + timer.string() +
-         " as root (a udev rule keeps it)";
+  return fmt::format(
+      "{}: its USB adapter holds bytes back for {} ms: write {} to {} as root (a udev rule keeps "
+      "it)",
+      port.string(), *before_ms, kLatency_ms, timer.string());
 }
 
 }  // namespace voxlist::serial

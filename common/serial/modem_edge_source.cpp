@@ -1,6 +1,7 @@
 #include "voxlist/serial/modem_edge_source.h"
 
 #include <fcntl.h>
+#include <fmt/core.h>
 #include <linux/serial.h>
 #include <pthread.h>
 #include <sys/ioctl.h>
@@ -32,7 +33,8 @@ int bit_of(const std::string& line) {
       {"cts", TIOCM_CTS}, {"dcd", TIOCM_CD}, {"dsr", TIOCM_DSR}, {"ri", TIOCM_RI}};
   const auto found = kBits.find(line);
   if (found == kBits.end())
-    throw std::invalid_argument("no modem line is called " + line + ": cts, dcd, dsr or ri");
+    throw std::invalid_argument(
+        fmt::format("no modem line is called {}: cts, dcd, dsr or ri", line));
   return found->second;
 }
 

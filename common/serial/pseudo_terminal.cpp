@@ -1,6 +1,7 @@
 #include "voxlist/serial/pseudo_terminal.h"
 
 #include <fcntl.h>
+#include <fmt/core.h>
 #include <poll.h>
 #include <unistd.h>
 
@@ -18,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const fs::path& link, const std::string& what, int error) {
-  throw PortError(link.string() + ": " + what + ": " + std::strerror(error));
+  throw PortError(fmt::format("{}: {}: {}", link.string(), what, std::strerror(error)));
 }
 
 FileDescriptor open_master(const fs::path& link) {
@@ -47,8 +48,7 @@ void put_link(const fs::path& link, const fs::path& target) {
   if (fs::exists(fs::symlink_status(link, error)) && !fs::is_symlink(link, error))
     fail(link, "is a file that is no link: remove it, or choose another name", EEXIST);
   fs::path beside = link;
-  beside += ".";
-  beside += std::to_string(getpid());
+  beside += fmt::format(".{}", getpid());
   fs::remove(beside, error);
   fs::create_symlink(target, beside, error);
   if (!error) fs::rename(beside, link, error);

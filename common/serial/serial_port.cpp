@@ -1,6 +1,7 @@
 #include "voxlist/serial/serial_port.h"
 
 #include <fcntl.h>
+#include <fmt/core.h>
 #include <linux/serial.h>
 #include <poll.h>
 #include <sys/file.h>
@@ -51,7 +52,7 @@ std::string advice(int error) {
 
 [[noreturn]] void fail(const std::string& path, const std::string& what, int error) {
   const char* reason = error == EWOULDBLOCK ? std::strerror(EBUSY) : std::strerror(error);
-  throw PortError(path + ": " + what + ": " + reason + ": " + advice(error));
+  throw PortError(fmt::format("{}: {}: {}: {}", path, what, reason, advice(error)));
 }
 
 // TIOCEXCL outlives a killed program there: as long as the simulator has its end open.
@@ -140,8 +141,8 @@ void SerialPort::set_baud(int baud) {
     return cfgetospeed(&settings) == *speed;
   };
   if (!speed || !is_set())
-    throw PortError(path_ + ": has no speed of " + std::to_string(baud) +
-                    " baud: use an adapter that does, or another speed");
+    throw PortError(fmt::format(
+        "{}: has no speed of {} baud: use an adapter that does, or another speed", path_, baud));
   baud_ = baud;
   if (tcflush(fd(), TCIOFLUSH) != 0) fail(path_, "is gone", errno);
 }

@@ -1,6 +1,7 @@
 #include "voxlist/serial/text_edge_source.h"
 
 #include <fcntl.h>
+#include <fmt/core.h>
 #include <sys/stat.h>
 #include <termios.h>
 #include <unistd.h>
@@ -20,15 +21,16 @@ namespace {
 constexpr int kMaxReads = 16;
 
 [[noreturn]] void fail(const std::filesystem::path& path, const std::string& what) {
-  throw PortError("clock at " + path.string() + ": " + what +
-                  "; check the cable, the path and that you may read it (group dialout)");
+  throw PortError(fmt::format(
+      "clock at {}: {}; check the cable, the path and that you may read it (group dialout)",
+      path.string(), what));
 }
 
 void set_up(int fd, const std::filesystem::path& path, int baud) {
   termios settings{};
   if (tcgetattr(fd, &settings) != 0) fail(path, std::strerror(errno));
   const auto speed = line_speed(baud);
-  if (!speed) fail(path, "no such speed: " + std::to_string(baud));
+  if (!speed) fail(path, fmt::format("no such speed: {}", baud));
   make_raw(settings);
   cfsetispeed(&settings, *speed);
   cfsetospeed(&settings, *speed);

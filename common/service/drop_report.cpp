@@ -1,5 +1,7 @@
 #include "voxlist/service/drop_report.h"
 
+#include <fmt/core.h>
+
 namespace voxlist::service {
 namespace {
 
@@ -16,8 +18,8 @@ std::vector<std::string> DropReport::due(const bus::Counters& losses, std::int64
     const bool first = told.count == 0;
     if (count == told.count || (!first && now_us - told.time_us < kPause_us)) continue;
     lines.push_back(
-        name + ": " + std::to_string(count - told.count) +
-        (first ? " message(s)" : " more message(s), " + std::to_string(count) + " in all"));
+        fmt::format("{}: {} {}", name, count - told.count,
+                    first ? "message(s)" : fmt::format("more message(s), {} in all", count)));
     told = {count, now_us};
   }
   return lines;

@@ -1,6 +1,7 @@
 #include "voxlist/service/instance_lock.h"
 
 #include <fcntl.h>
+#include <fmt/core.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -31,12 +32,13 @@ std::string as_file_name(std::string text) {
 
 std::optional<InstanceLock> InstanceLock::take(const std::filesystem::path& file) {
   const int descriptor = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
-  if (descriptor < 0) throw std::runtime_error(file.string() + ": " + std::strerror(errno));
+  if (descriptor < 0)
+    throw std::runtime_error(fmt::format("{}: {}", file.string(), std::strerror(errno)));
   InstanceLock lock(descriptor);
   if (flock(descriptor, LOCK_EX | LOCK_NB) != 0) return std::nullopt;
-  const std::string owner = std::to_string(getpid()) + "\n";
+  const std::string owner = fmt::format("{}\n", getpid());
   if (ftruncate(descriptor, 0) != 0 || write(descriptor, owner.data(), owner.size()) < 0) {
-    throw std::runtime_error(file.string() + ": " + std::strerror(errno));
+    throw std::runtime_error(fmt::format("{}: {}", file.string(), std::strerror(errno)));
   }
   return lock;
 }
@@ -57,7 +59,8 @@ std::string lock_owner(const std::filesystem::path& file) {
 std::string lock_name(const std::string& service, const std::string& url,
                       const std::string& prefix) {
   const std::string network = url.substr(0, url.find('?'));
-  return service + "-" + as_file_name(prefix + "-" + network) + "-" + network_namespace() + ".lock";
+  return fmt::format("{}-{}-{}.lock", service, as_file_name(prefix + "-" + network),
+                     network_namespace());
 }
 
 }  // namespace voxlist::service

@@ -1,5 +1,6 @@
 #include "voxlist/service/run_folder.h"
 
+#include <fmt/core.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -15,7 +16,7 @@ std::filesystem::path wanted_folder() {
   if (const char* folder = std::getenv("XDG_RUNTIME_DIR"); folder && *folder) {
     return std::filesystem::path(folder) / "voxlist";
   }
-  return "/tmp/voxlist-" + std::to_string(geteuid());
+  return fmt::format("/tmp/voxlist-{}", geteuid());
 }
 
 }  // namespace

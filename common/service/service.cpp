@@ -1,5 +1,6 @@
 #include "voxlist/service/service.h"
 
+#include <fmt/core.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
@@ -89,8 +90,8 @@ InstanceLock take_lock(const ServiceInfo& info, const bus::BusOptions& options) 
   const auto file = run_folder() / lock_name(info.name, options.url, options.prefix);
   auto lock = InstanceLock::take(file);
   if (!lock) {
-    throw std::runtime_error("already runs on this bus as process " + lock_owner(file) +
-                             "; stop that one first");
+    throw std::runtime_error(fmt::format(
+        "already runs on this bus as process {}; stop that one first", lock_owner(file)));
   }
   return std::move(*lock);
 }
@@ -112,7 +113,8 @@ int run_service(int argc, char** argv, const ServiceInfo& info, const config::Se
   const auto service = make(bus, health);
   spdlog::info("started on {}", options.url);
   const bool wanted = run_until_stopped(bus, health, *service) || bus::is_recording(options.url);
-  if (!wanted) throw std::runtime_error("the connection to " + options.url + " broke; start again");
+  if (!wanted)
+    throw std::runtime_error(fmt::format("the connection to {} broke; start again", options.url));
   spdlog::info("stopped");
   return 0;
 } catch (const std::exception& error) {

@@ -1,5 +1,7 @@
 #include "voxlist/voxels/occupancy_list.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <stdexcept>
 #include <string>
@@ -25,8 +27,7 @@ OccupancyList::OccupancyList(std::vector<Voxel> voxels, double resolution_m)
 
 const OccupancyList& OccupancyList::down_sampled(int factor) const {
   if (factor < 1)
-    throw std::invalid_argument("OccupancyList: down-sample factor " + std::to_string(factor) +
-                                " < 1");
+    throw std::invalid_argument(fmt::format("OccupancyList: down-sample factor {} < 1", factor));
   if (factor == 1) return *this;
   auto& cached = down_sample_cache_[factor];
   if (!cached) {

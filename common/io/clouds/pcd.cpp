@@ -1,5 +1,6 @@
 #include "voxlist/io/clouds/pcd.h"
 
+#include <fmt/core.h>
 #include <lzf.h>
 
 #include <map>
@@ -55,7 +56,7 @@ Entries take_entries(std::string_view& bytes) {
 const Words& words_of(const Entries& entries, std::string_view key, std::size_t expected) {
   const auto found = entries.find(key);
   if (found == entries.end() || found->second.size() != expected) {
-    throw FormatError("its header line " + std::string(key) + " is missing or of the wrong length");
+    throw FormatError(fmt::format("its header line {} is missing or of the wrong length", key));
   }
   return found->second;
 }
@@ -121,7 +122,7 @@ PointRows point_rows(const std::vector<Field>& fields) {
   PointRows rows(names);
   for (std::size_t i = 0; i < fields.size(); ++i) {
     if (rows.wants(i) && fields[i].count != 1) {
-      throw FormatError("its field " + names[i] + " does not have COUNT 1");
+      throw FormatError(fmt::format("its field {} does not have COUNT 1", names[i]));
     }
   }
   return rows;

@@ -1,3 +1,5 @@
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <bit>
 #include <cstring>
@@ -18,9 +20,10 @@ constexpr std::string_view kColourProperties =
     "property uchar red\nproperty uchar green\nproperty uchar blue\n";
 
 std::string header(std::size_t points, std::string_view more_properties) {
-  return "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(points) +
-         "\nproperty float x\nproperty float y\nproperty float z\n" + std::string(more_properties) +
-         "end_header\n";
+  return fmt::format(
+      "ply\nformat binary_little_endian 1.0\nelement vertex {}\n"
+      "property float x\nproperty float y\nproperty float z\n{}end_header\n",
+      points, more_properties);
 }
 
 template <typename T>

@@ -1,6 +1,7 @@
 #include "voxlist/io/files/atomic_file.h"
 
 #include <fcntl.h>
+#include <fmt/core.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -18,15 +19,16 @@ namespace {
 namespace fs = std::filesystem;
 
 FileError failed(const fs::path& path, const std::string& action) {
-  return {path, action + " failed (" + std::strerror(errno) +
-                    "), check free space and permissions; the file was left as it was"};
+  return {path, fmt::format(
+                    "{} failed ({}), check free space and permissions; the file was left as it was",
+                    action, std::strerror(errno))};
 }
 
 class TemporaryFile {
  public:
   explicit TemporaryFile(const fs::path& target) : target_(target), path_(target) {
     static std::atomic<unsigned> counter{0};
-    path_ += ".tmp-" + std::to_string(::getpid()) + "-" + std::to_string(counter++);
+    path_ += fmt::format(".tmp-{}-{}", ::getpid(), counter++);
     descriptor_ =
         ::open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0666);
     if (descriptor_ < 0) {

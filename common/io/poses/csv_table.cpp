@@ -1,5 +1,7 @@
 #include "voxlist/io/poses/csv_table.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -124,11 +126,11 @@ double CsvTable::number(std::size_t row, std::size_t column) const {
 }
 
 FileError CsvTable::error(std::size_t row, const std::string& problem) const {
-  return {path_, "line " + std::to_string(rows_[row].line) + ": " + problem};
+  return {path_, fmt::format("line {}: {}", rows_[row].line, problem)};
 }
 
 FileError CsvTable::error(std::size_t row, std::size_t column, const std::string& problem) const {
-  return error(row, "column " + names_[column] + ": " + problem);
+  return error(row, fmt::format("column {}: {}", names_[column], problem));
 }
 
 }  // namespace voxlist::io

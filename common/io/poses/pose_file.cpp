@@ -1,5 +1,7 @@
 #include "voxlist/io/poses/pose_file.h"
 
+#include <fmt/core.h>
+
 #include <cctype>
 #include <cmath>
 #include <numbers>
@@ -143,8 +145,9 @@ PoseTable read_pose_csv(const std::filesystem::path& path) {
   const CsvTable csv(path);
   const Columns columns(csv);
   if (!columns.complete()) {
-    throw FileError(path, "needs columns x, y and yaw (or qx, qy, qz, qw), but has " +
-                              csv.column_names() + "; name them in the first line");
+    throw FileError(path, fmt::format("needs columns x, y and yaw (or qx, qy, qz, qw), but has {}; "
+                                      "name them in the first line",
+                                      csv.column_names()));
   }
   PoseTable table{{},
                   columns.scan.has_value(),
@@ -157,10 +160,11 @@ PoseTable read_pose_csv(const std::filesystem::path& path) {
     table.rows.push_back(RowReader(csv, columns, row).read());
     const PoseRow& last = table.rows.back();
     if (columns.scan && !scans.insert(last.scan).second) {
-      throw csv.error(row, *columns.scan, "scan " + std::to_string(last.scan) + " comes twice");
+      throw csv.error(row, *columns.scan, fmt::format("scan {} comes twice", last.scan));
     }
     if (columns.file && (last.file.empty() || !files.insert(last.file).second)) {
-      throw csv.error(row, *columns.file, "file \"" + last.file + "\" is empty or comes twice");
+      throw csv.error(row, *columns.file,
+                      fmt::format("file \"{}\" is empty or comes twice", last.file));
     }
   }
   if (table.rows.empty()) {
@@ -176,8 +180,8 @@ PoseTable read_odometry_csv(const std::filesystem::path& path) {
   }
   for (std::size_t i = 1; i < table.rows.size(); ++i) {
     if (table.rows[i].utime_us < table.rows[i - 1].utime_us) {
-      throw FileError(path, "time goes backwards at pose " + std::to_string(i + 1) +
-                                ", sort the lines by time");
+      throw FileError(path,
+                      fmt::format("time goes backwards at pose {}, sort the lines by time", i + 1));
     }
   }
   return table;

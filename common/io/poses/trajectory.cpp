@@ -1,8 +1,9 @@
 #include "voxlist/io/poses/trajectory.h"
 
+#include <fmt/core.h>
+
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <string>
 
@@ -41,11 +42,9 @@ std::string format_line(const StampedPose3& stamped) {
   const auto& p = stamped.pose.translation();
   const Eigen::Quaterniond q(stamped.pose.linear());
   const std::lldiv_t time = std::lldiv(std::abs(stamped.utime_us), 1'000'000);
-  std::array<char, 4096> line;  // the longest doubles have 319 digits each
-  std::snprintf(line.data(), line.size(), "%s%lld.%06lld %.9f %.9f %.9f %.9f %.9f %.9f %.9f\n",
-                stamped.utime_us < 0 ? "-" : "", time.quot, time.rem, p.x(), p.y(), p.z(), q.x(),
-                q.y(), q.z(), q.w());
-  return line.data();
+  return fmt::format("{}{}.{:06} {:.9f} {:.9f} {:.9f} {:.9f} {:.9f} {:.9f} {:.9f}\n",
+                     stamped.utime_us < 0 ? "-" : "", time.quot, time.rem, p.x(), p.y(), p.z(),
+                     q.x(), q.y(), q.z(), q.w());
 }
 
 }  // namespace
@@ -64,7 +63,7 @@ std::vector<StampedPose3> read_tum(const std::filesystem::path& path) {
     try {
       trajectory.push_back(parse_line(line));
     } catch (const FormatError& error) {
-      throw FileError(path, "line " + std::to_string(line_number) + ": " + error.what());
+      throw FileError(path, fmt::format("line {}: {}", line_number, error.what()));
     }
   }
   return trajectory;

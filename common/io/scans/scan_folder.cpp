@@ -1,5 +1,7 @@
 #include "voxlist/io/scans/scan_folder.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cctype>
 #include <map>
@@ -168,9 +170,10 @@ void ScanFolder::read_poses(const fs::path& path) {
   }
   for (std::size_t scan = 1; scan < utimes_us_.size(); ++scan) {
     if (utimes_us_[scan] <= utimes_us_[scan - 1]) {
-      throw FileError(path, "puts " + files_[scan].filename().string() + " no later than " +
-                                files_[scan - 1].filename().string() +
-                                ", number the scans in order of time");
+      throw FileError(
+          path,
+          fmt::format("puts {} no later than {}, number the scans in order of time",
+                      files_[scan].filename().string(), files_[scan - 1].filename().string()));
     }
   }
 }

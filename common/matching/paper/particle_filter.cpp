@@ -1,5 +1,7 @@
 #include "voxlist/matching/paper/particle_filter.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <bit>
 #include <stdexcept>
@@ -36,10 +38,9 @@ ParticleFilter::ParticleFilter(const VoxelMap& map, const ParticleFilterConfig& 
   };
   if (!power_of_two(config.coarsest_factor) || !power_of_two(config.final_factor) ||
       config.final_factor > config.coarsest_factor || config.max_particles < kChildren) {
-    throw std::invalid_argument("ParticleFilter: factors " +
-                                std::to_string(config.coarsest_factor) + " to " +
-                                std::to_string(config.final_factor) + ", max_particles " +
-                                std::to_string(config.max_particles));
+    throw std::invalid_argument(fmt::format("ParticleFilter: factors {} to {}, max_particles {}",
+                                            config.coarsest_factor, config.final_factor,
+                                            config.max_particles));
   }
   maps_.push_back(down_sampled(map, config.final_factor));
   for (int f = config.final_factor; f < config.coarsest_factor; f *= 2)

@@ -1,5 +1,7 @@
 #include "voxlist/matching/paper/significance.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -19,9 +21,8 @@ void check(const ChanceModel& m) {
       m.scan_voxels >= 0 && m.scan_voxels <= m.volume_voxels) {
     return;
   }
-  throw std::invalid_argument("ChanceModel: V = " + std::to_string(m.volume_voxels) +
-                              ", N = " + std::to_string(m.map_voxels) +
-                              ", n = " + std::to_string(m.scan_voxels));
+  throw std::invalid_argument(fmt::format("ChanceModel: V = {}, N = {}, n = {}", m.volume_voxels,
+                                          m.map_voxels, m.scan_voxels));
 }
 
 std::int64_t lowest_overlap(const ChanceModel& m) {
@@ -136,8 +137,7 @@ double log10_best_of(double log10_tail, double poses) {
 double required_z(double p_max, double poses) {
   const double tail = p_max / poses;
   if (!(p_max > 0.0 && p_max < 1.0 && poses >= 1.0 && tail > 1e-300)) {
-    throw std::invalid_argument("required_z: p_max = " + std::to_string(p_max) +
-                                ", poses = " + std::to_string(poses));
+    throw std::invalid_argument(fmt::format("required_z: p_max = {}, poses = {}", p_max, poses));
   }
   // The normal tail falls steadily, so halving an interval always ends at its root.
   double low = -40.0, high = 40.0;

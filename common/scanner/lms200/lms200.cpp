@@ -1,5 +1,7 @@
 #include "voxlist/scanner/lms200/lms200.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -50,7 +52,7 @@ Lms200::Lms200(serial::Port& port, const Lms200Config& config, std::stop_token s
     : config_(checked(config)), link_(port, config.port, std::move(stop)), setup_(link_, config_) {}
 
 void Lms200::fail(const std::string& what, bool silent) const {
-  throw Lms200Failure("the LMS 200 on " + config_.port + " " + what, silent);
+  throw Lms200Failure(fmt::format("the LMS 200 on {} {}", config_.port, what), silent);
 }
 
 void Lms200::begin() {
@@ -130,7 +132,8 @@ int Lms200::lost_in_stream(std::size_t scan_bytes) {
 void Lms200::check_stream() const {
   const auto scan_us = static_cast<std::int64_t>(scan_bits(format_) * 1e6 / link_.baud());
   if (silent_us_ < std::max(kSilence_us, kSilentScans * scan_us)) return;
-  if (!last_refusal_.empty()) fail("sends scans that make no sense (" + last_refusal_ + ")");
+  if (!last_refusal_.empty())
+    fail(fmt::format("sends scans that make no sense ({})", last_refusal_));
   fail(link_.counts().skipped_bytes == good_skipped_
            ? "fell silent; check its power and cable"
            : "sends nothing that can be read; check cable and earth",

@@ -1,5 +1,7 @@
 #include "voxlist/scanner/lms200/lms200_link.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <utility>
 #include <vector>
@@ -41,11 +43,6 @@ constexpr std::int64_t kSecondAnswer_us = 100'000;
 
 // A change of mode takes up to 3 s (telegram listing, 4.3).
 constexpr std::int64_t kModeLimit_us = 3'000'000;
-
-std::string hex(std::uint8_t byte) {
-  constexpr char kDigits[] = "0123456789ABCDEF";
-  return {kDigits[byte >> 4], kDigits[byte & 0xF]};
-}
 
 }  // namespace
 
@@ -118,8 +115,8 @@ Lms200Link::Answer Lms200Link::answer(std::uint8_t reply, std::int64_t limit_us,
         if (telegram.command == reply) return Answer::kReply;
         if (telegram.command == lms200::kRejected) return Answer::kRefused;
         if (telegram.command == lms200::kPoweredOn)
-          throw Lms200Failure("the LMS 200 on " + port_name_ +
-                              " restarted by itself; check its supply");
+          throw Lms200Failure(
+              fmt::format("the LMS 200 on {} restarted by itself; check its supply", port_name_));
     }
     if (this->damage() != damage)
       deadline_us = std::min(deadline_us, port_.now_us() + kAfterDamage_us);
@@ -144,9 +141,9 @@ Lms200Telegram Lms200Link::ask(std::uint8_t command, std::span<const std::uint8_
     wait(kAfterRefusal_us);
   }
   const bool silent = got == Answer::kNone;
-  throw Lms200Failure("the LMS 200 on " + port_name_ + (silent ? " does not answer" : " refuses") +
-                          " command " + hex(command) +
-                          (silent ? "; check cable and adapter" : "; switch it off and on"),
+  throw Lms200Failure(fmt::format("the LMS 200 on {} {} command {:02X}; {}", port_name_,
+                                  silent ? "does not answer" : "refuses", command,
+                                  silent ? "check cable and adapter" : "switch it off and on"),
                       silent);
 }
 
@@ -156,8 +153,8 @@ void Lms200Link::set_mode(std::uint8_t mode, std::span<const std::uint8_t> passw
   data.insert(data.end(), password.begin(), password.end());
   const Lms200Telegram reply = ask(lms200::kSetMode, data, repeat, kModeLimit_us);
   if (reply.data.empty() || reply.data[0] != 0)
-    throw Lms200Failure("the LMS 200 on " + port_name_ + " does not go into mode " + hex(mode) +
-                        "; switch it off and on");
+    throw Lms200Failure(fmt::format(
+        "the LMS 200 on {} does not go into mode {:02X}; switch it off and on", port_name_, mode));
 }
 
 }  // namespace voxlist::scanner

@@ -1,5 +1,7 @@
 #include "voxlist/scanner/lms200/lms200_setup.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -78,7 +80,7 @@ Lms200Setup::Lms200Setup(Lms200Link& link, const Lms200Config& config)
 }
 
 void Lms200Setup::fail(const std::string& what) const {
-  throw Lms200Failure("the LMS 200 on " + config_.port + " " + what);
+  throw Lms200Failure(fmt::format("the LMS 200 on {} {}", config_.port, what));
 }
 
 Lms200ScanFormat Lms200Setup::run() {
@@ -140,7 +142,7 @@ bool Lms200Setup::is_heard(std::int64_t duration_us) {
 void Lms200Setup::read_type() {
   type_ = decode_type(link_.ask(lms200::kGetType)).value_or("");
   if (!type_.starts_with("LMS2"))
-    fail("says that it is a \"" + type_ + "\": not a device of this family");
+    fail(fmt::format("says that it is a \"{}\": not a device of this family", type_));
 }
 
 Lms200ScanFormat Lms200Setup::configure() {
@@ -208,8 +210,10 @@ void Lms200Setup::change_baud(int baud) {
   link_.forget();
   known_baud_ = baud;
   if (!decode_status_report(link_.ask(lms200::kGetStatus)))
-    fail("does not answer at " + std::to_string(baud) +
-         " baud; 500 kbaud needs RS-422 and an adapter that can do it, else set baud = 38400");
+    fail(
+        fmt::format("does not answer at {} baud; 500 kbaud needs RS-422 and an adapter that can do "
+                    "it, else set baud = 38400",
+                    baud));
 }
 
 }  // namespace voxlist::scanner

@@ -1,5 +1,7 @@
 #include "voxlist/scanner/lms200/lms200_telegram.h"
 
+#include <fmt/core.h>
+
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -48,7 +50,7 @@ std::uint16_t lms200_crc(std::span<const std::uint8_t> bytes) {
 std::vector<std::uint8_t> encode(const Lms200Telegram& telegram) {
   const std::size_t length = telegram.data.size() + 1;
   if (kHeaderBytes + length + kCrcBytes > kMaxLms200TelegramBytes)
-    throw std::invalid_argument("a telegram cannot have " + std::to_string(length) + " bytes");
+    throw std::invalid_argument(fmt::format("a telegram cannot have {} bytes", length));
   std::vector<std::uint8_t> bytes;
   bytes.reserve(kMaxLms200TelegramBytes);
   for (const std::size_t byte : {std::size_t{kStart}, std::size_t{telegram.address}, length & 0xFF,

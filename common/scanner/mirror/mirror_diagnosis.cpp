@@ -1,7 +1,8 @@
 #include "voxlist/scanner/mirror/mirror_diagnosis.h"
 
+#include <fmt/core.h>
+
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 
 #include "voxlist/geometry/seconds_between.h"
@@ -17,32 +18,25 @@ constexpr double kTellSlip_s = 5.0;
 // A turn takes 2 s at the usual speed, so an arm would have come.
 constexpr double kNeverTurned_us = 3e6;
 
-template <class... Args>
-std::string text(const char* format, Args... args) {
-  char line[200];
-  std::snprintf(line, sizeof line, format, args...);
-  return line;
-}
-
 double degrees(double angle_rad) { return angle_rad * 180.0 / std::numbers::pi; }
 
 double turn_s(double rate_radps) { return 2.0 * std::numbers::pi / std::abs(rate_radps); }
 
 std::string no_arm_sentence(const MirrorEvidence& evidence) {
-  return text("no arm seen for %.1f s", *evidence.silence.silent_s(evidence.now_us));
+  return fmt::format("no arm seen for {:.1f} s", *evidence.silence.silent_s(evidence.now_us));
 }
 
 std::string wrong_rate_sentence(const MirrorEvidence& evidence) {
-  return text(
-      "wrong rate: a turn takes %.3f s by the arms, %.3f s by the clock and "
+  return fmt::format(
+      "wrong rate: a turn takes {:.3f} s by the arms, {:.3f} s by the clock and "
       "steps_per_revolution; going on with the arms",
       turn_s(evidence.arms.rate_radps()), turn_s(evidence.clock.rate_radps()));
 }
 
 std::string missing_arm_sentence(const MirrorEvidence& evidence) {
   const std::size_t arm = *evidence.missing_arm();
-  return text("arm %zu (%.0f deg) not seen for more than two turns: going on without it", arm,
-              degrees(evidence.config.arms[arm].angle_rad));
+  return fmt::format("arm {} ({:.0f} deg) not seen for more than two turns: going on without it",
+                     arm, degrees(evidence.config.arms[arm].angle_rad));
 }
 
 }  // namespace
@@ -76,13 +70,14 @@ std::string sentence(MirrorTrouble trouble, const MirrorEvidence& evidence) {
     case MirrorTrouble::kNone:
       break;
     case MirrorTrouble::kStands:
-      return text("the mirror stands: for %.1f s nothing turns in the lines or no arm came",
-                  seconds_between(*evidence.stall.since_us(), evidence.now_us));
+      return fmt::format(
+          "the mirror stands: for {:.1f} s nothing turns in the lines or no arm came",
+          seconds_between(*evidence.stall.since_us(), evidence.now_us));
     case MirrorTrouble::kNewRate:
       return "the motor's speed has changed: waiting for passages of the arms";
     case MirrorTrouble::kStrangeArmGap:
-      return text("arms are %.0f deg apart, which the settings say in neither direction",
-                  degrees(*evidence.arms.strange_gap_rad()));
+      return fmt::format("arms are {:.0f} deg apart, which the settings say in neither direction",
+                         degrees(*evidence.arms.strange_gap_rad()));
     case MirrorTrouble::kNeverTurned:
       return "no arm seen yet, and the lines do not change: the mirror seems to stand";
     case MirrorTrouble::kNoArmYet:
@@ -100,8 +95,8 @@ std::string sentence(MirrorTrouble trouble, const MirrorEvidence& evidence) {
     case MirrorTrouble::kClockNotInStep:
       return "clock not yet in step: going on with the arms";
     case MirrorTrouble::kMissedSteps:
-      return text("missed %lld steps of the motor: the arms came %.1f deg late",
-                  static_cast<long long>(evidence.slip->steps), degrees(evidence.slip->late_rad));
+      return fmt::format("missed {} steps of the motor: the arms came {:.1f} deg late",
+                         evidence.slip->steps, degrees(evidence.slip->late_rad));
     case MirrorTrouble::kArmsSilent:
       return no_arm_sentence(evidence) + ": going on with the clock";
     case MirrorTrouble::kArmMissing:
