@@ -1,6 +1,7 @@
 #include "services/cloud_assembler/cloud_assembler_service.h"
 
-#include <cmath>
+#include <fmt/core.h>
+
 #include <voxlist/mirror_state_t.hpp>
 #include <voxlist/planar_lidar_t.hpp>
 #include <voxlist/pointcloud_t.hpp>
@@ -90,16 +91,17 @@ void CloudAssemblerService::tell_state(std::int64_t now_us) {
                              "no ODOMETRY, so no clouds: is the robot base running? Without one "
                              "set use_odometry = false");
   if (used_.is_silent(now_us))
-    return health_.set_state(State::kError,
-                             "no line can be used" + drop_reason() +
-                                 ": do the times of LASER, MIRROR and ODOMETRY agree?");
+    return health_.set_state(
+        State::kError,
+        fmt::format("no line can be used{}: do the times of LASER, MIRROR and ODOMETRY agree?",
+                    drop_reason()));
   if (mirror_state_.state == MirrorState::State::kFault)
     return health_.set_state(State::kWarning, "mirror: " + mirror_state_.reason);
   if (line_share_ < kGoodLineShare)
     return health_.set_state(State::kWarning,
-                             "the last sweep had only " +
-                                 std::to_string(std::lround(100.0 * line_share_)) +
-                                 " % of its lines: see LASER/missing and the other counters");
+                             fmt::format("the last sweep had only {:.0f} % of its lines: see "
+                                         "LASER/missing and the other counters",
+                                         100.0 * line_share_));
   health_.set_state(State::kOk);
 }
 

@@ -1,9 +1,9 @@
 #include "services/laser_driver/laser_driver_service.h"
 
+#include <fmt/core.h>
 #include <spdlog/spdlog.h>
 
 #include <chrono>
-#include <cmath>
 #include <voxlist/planar_lidar_t.hpp>
 
 #include "voxlist/bus/bus.h"
@@ -28,11 +28,11 @@ std::string worry(const LaserReader::State& state, const std::string& port) {
   const std::string laser = "the LMS 200 on " + port;
   if (state.polluted) return laser + " needs its front window cleaned";
   if (state.dazzled > kDazzled)
-    return laser + " is dazzled in " + std::to_string(std::lround(100.0 * state.dazzled)) +
-           " % of its beams";
+    return fmt::format("{} is dazzled in {:.0f} % of its beams", laser, 100.0 * state.dazzled);
   if (state.lost > 0)
-    return std::to_string(state.lost) + " scans of " + laser +
-           " were lost or refused in the last second; check cable, adapter and load";
+    return fmt::format(
+        "{} scans of {} were lost or refused in the last second; check cable, adapter and load",
+        state.lost, laser);
   return {};
 }
 

@@ -1,5 +1,6 @@
 #include "services/mirror_monitor/gpio_edge_source.h"
 
+#include <fmt/core.h>
 #include <gpiod.h>
 
 #include <array>
@@ -30,9 +31,9 @@ std::int64_t to_wall_us(std::int64_t stamp_us) {
 
 [[noreturn]] void fail(const std::string& where) {
   throw serial::PortError(
-      "clock at " + where + ": " + std::strerror(errno) +
-      "; check chip and pin (gpioinfo), that nothing else uses the pin, and that you "
-      "may (group gpio)");
+      fmt::format("clock at {}: {}; check chip and pin (gpioinfo), that nothing else uses the pin, "
+                  "and that you may (group gpio)",
+                  where, std::strerror(errno)));
 }
 
 }  // namespace
@@ -44,7 +45,7 @@ struct GpioEdgeSource::Line {
 };
 
 GpioEdgeSource::GpioEdgeSource(const std::string& chip, unsigned pin)
-    : line_(new Line{chip + "/" + std::to_string(pin),
+    : line_(new Line{fmt::format("{}/{}", chip, pin),
                      {gpiod_chip_open_lookup(chip.c_str()), &gpiod_chip_close}}) {
   if (!line_->chip) fail(line_->where);
   line_->line = gpiod_chip_get_line(line_->chip.get(), pin);

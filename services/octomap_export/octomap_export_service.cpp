@@ -1,5 +1,6 @@
 #include "services/octomap_export/octomap_export_service.h"
 
+#include <fmt/core.h>
 #include <spdlog/spdlog.h>
 
 #include <exception>
@@ -114,7 +115,7 @@ void OctomapExportService::report() {
   if (!save_error_.empty()) return health_.set_state(State::kError, save_error_);
   if (!missing) return health_.set_state(State::kOk);
   if (*missing == 0) return health_.set_state(State::kOk, "waits for the map's first keyframe");
-  health_.set_state(State::kWarning, "waits for keyframe " + std::to_string(*missing));
+  health_.set_state(State::kWarning, fmt::format("waits for keyframe {}", *missing));
 }
 
 }  // namespace voxlist::services

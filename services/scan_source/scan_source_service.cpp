@@ -1,5 +1,6 @@
 #include "services/scan_source/scan_source_service.h"
 
+#include <fmt/core.h>
 #include <spdlog/spdlog.h>
 
 #include <stdexcept>
@@ -86,7 +87,7 @@ void ScanSourceService::publish_scan(std::size_t scan) try {
 void ScanSourceService::say_how_it_went() {
   std::string message = config_.loop ? "" : "all scans are out";
   if (unreadable_ > 0)
-    message += (message.empty() ? "" : ", ") + std::to_string(unreadable_) + " could not be read";
+    message += fmt::format("{}{} could not be read", message.empty() ? "" : ", ", unreadable_);
   health_.set_state(unreadable_ > 0 ? bus::Health::State::kWarning : bus::Health::State::kOk,
                     message);
 }

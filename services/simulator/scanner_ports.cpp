@@ -1,5 +1,7 @@
 #include "services/simulator/scanner_ports.h"
 
+#include <fmt/core.h>
+
 #include <cmath>
 #include <vector>
 
@@ -63,7 +65,7 @@ void ScannerPorts::serve_clock(std::int64_t now_us) {
   const double run_s = static_cast<double>(now_us - start_utime_us_) * 1e-6;
   for (; scanner_.motor().edge_s(edge_) <= run_s; ++edge_) {
     const double edge_s = scanner_.motor().edge_s(edge_);
-    if (scanner_.motor().clock_seen(edge_s)) text += std::to_string(controller_us(edge_s)) + "\n";
+    if (scanner_.motor().clock_seen(edge_s)) text += fmt::format("{}\n", controller_us(edge_s));
   }
   clock_adapter_.take({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
   clock_port_.write(clock_adapter_.given_until(now_us));

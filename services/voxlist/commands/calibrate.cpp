@@ -1,5 +1,7 @@
 #include "voxlist/calibration/calibrate.h"
 
+#include <fmt/core.h>
+
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <stdexcept>
@@ -7,7 +9,6 @@
 #include "services/voxlist/commands/command.h"
 #include "services/voxlist/commands/settings.h"
 #include "services/voxlist/output/console.h"
-#include "services/voxlist/output/text.h"
 #include "services/voxlist/recording/scanner_log.h"
 #include "voxlist/config/edit.h"
 #include "voxlist/io/files/atomic_file.h"
@@ -29,22 +30,20 @@ struct CalibrateOptions {
 };
 
 constexpr auto kTable = "cloud_assembler";
-constexpr int kNameWidth = -22;
-constexpr int kNumberWidth = 12;
 
 using Values = std::vector<std::pair<std::string, std::string>>;
 
 // In the file's units.
 std::string told(std::size_t parameter, double value) {
   const calibration::ParameterInfo& info = calibration::kParameterInfos[parameter];
-  return fixed(value * info.file_units, info.decimals);
+  return fmt::format("{:.{}f}", value * info.file_units, info.decimals);
 }
 
 void tell(const calibration::CalibrationAnswer& answer, const calibration::ParameterVector& before,
           Console& console) {
   const auto row = [&](const std::string& name, const std::vector<std::string>& cells) {
-    std::string line = padded(name, kNameWidth);
-    for (const std::string& cell : cells) line += padded(cell, kNumberWidth);
+    std::string line = fmt::format("{:22}", name);
+    for (const std::string& cell : cells) line += fmt::format("{:>12}", cell);
     console.say(line);
   };
   row("parameter", {"before", "after", "sd"});
@@ -53,10 +52,11 @@ void tell(const calibration::CalibrationAnswer& answer, const calibration::Param
     row(calibration::kParameterInfos[i].key, {told(i, before[k]), told(i, answer.parameters[k]),
                                               answer.held[i] ? "held" : told(i, answer.sd[k])});
   }
-  console.say("surfaces are " + fixed(answer.thickness_before_m * 1e3, 1) + " mm thick before, " +
-              fixed(answer.thickness_after_m * 1e3, 1) + " mm after (RMS over " +
-              std::to_string(answer.surfaces) + " surfaces; " + std::to_string(answer.beams) +
-              " beams of " + std::to_string(answer.lines) + " lines)");
+  console.say(
+      fmt::format("surfaces are {:.1f} mm thick before, {:.1f} mm after (RMS over {} surfaces; {} "
+                  "beams of {} lines)",
+                  answer.thickness_before_m * 1e3, answer.thickness_after_m * 1e3, answer.surfaces,
+                  answer.beams, answer.lines));
 }
 
 Values values_of(const calibration::CalibrationAnswer& answer) {

@@ -1,10 +1,11 @@
+#include <fmt/core.h>
+
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <numbers>
 
 #include "services/voxlist/commands/command.h"
 #include "services/voxlist/output/console.h"
-#include "services/voxlist/output/text.h"
 #include "voxlist/evaluation/evaluation.h"
 #include "voxlist/io/files/file.h"
 #include "voxlist/io/poses/trajectory.h"
@@ -20,12 +21,10 @@ struct EvaluateOptions {
 
 constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
 constexpr double kPercent = 100.0;
-constexpr int kNameWidth = -32;
-constexpr int kNumberWidth = 10;
 
 std::string line(const std::string& name, const std::vector<std::string>& cells) {
-  std::string text = padded(name, kNameWidth);
-  for (const std::string& cell : cells) text += padded(cell, kNumberWidth);
+  std::string text = fmt::format("{:32}", name);
+  for (const std::string& cell : cells) text += fmt::format("{:>10}", cell);
   return text;
 }
 
@@ -33,15 +32,15 @@ std::string line(const std::string& name, const evaluation::ErrorStatistics& err
                  double scale = 1.0) {
   std::vector<std::string> cells;
   for (const double value : {errors.rmse, errors.mean, errors.median, errors.max}) {
-    cells.push_back(fixed(value * scale, 4));
+    cells.push_back(fmt::format("{:.4f}", value * scale));
   }
   return line(name, cells);
 }
 
 void tell(const evaluation::TrajectoryErrors& errors, Console& console) {
   const bool by_time = errors.association == evaluation::Association::kByTime;
-  console.say(std::to_string(errors.matched) + " of " + std::to_string(errors.in_truth) +
-              " poses matched by " + (by_time ? "time" : "scan number"));
+  console.say(fmt::format("{} of {} poses matched by {}", errors.matched, errors.in_truth,
+                          by_time ? "time" : "scan number"));
   console.say(line("error", {"rmse", "mean", "median", "max"}));
   console.say("absolute, best fit");
   console.say(line("  position (m)", errors.aligned_m));
@@ -50,7 +49,7 @@ void tell(const evaluation::TrajectoryErrors& errors, Console& console) {
   console.say(line("  position (m)", errors.anchored_m));
   if (errors.anchored_3d_m) console.say(line("  position with height (m)", *errors.anchored_3d_m));
   console.say(line("  heading (deg)", errors.anchored_heading_rad, kDegreesPerRadian));
-  console.say(line("  last position (m)", {fixed(errors.end_position_m, 4)}));
+  console.say(line("  last position (m)", {fmt::format("{:.4f}", errors.end_position_m)}));
   console.say("relative");
   console.say(line("  pose to pose (m)", errors.step_m));
   console.say(line("  pose to pose (deg)", errors.step_rad, kDegreesPerRadian));
@@ -62,8 +61,9 @@ int run(const EvaluateOptions& options, Console& console) {
   const auto errors =
       evaluation::evaluate(io::read_tum(options.trajectory), io::read_pose_csv(options.truth));
   if (!errors) {
-    throw io::FileError(options.truth, "has no pose for any of " + options.trajectory.string() +
-                                           ", check that both are of the same run");
+    throw io::FileError(
+        options.truth, fmt::format("has no pose for any of {}, check that both are of the same run",
+                                   options.trajectory.string()));
   }
   tell(*errors, console);
   const auto plot =

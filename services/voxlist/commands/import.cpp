@@ -1,3 +1,5 @@
+#include <fmt/core.h>
+
 #include <CLI/CLI.hpp>
 #include <memory>
 
@@ -46,8 +48,8 @@ class Importer {
   int write(bus::Channel<M> channel, const M& message) {
     std::vector<std::uint8_t> bytes;
     if (const bus::Fault fault = bus::encode(message, bytes); fault != bus::Fault::kNone) {
-      const std::string reason = std::string(channel.name) + "/" + bus::fault_name(fault);
-      omissions_.add(reason, reason + " at utime " + std::to_string(message.utime));
+      const std::string reason = fmt::format("{}/{}", channel.name, bus::fault_name(fault));
+      omissions_.add(reason, fmt::format("{} at utime {}", reason, message.utime));
       return 0;
     }
     log_.write(channel.name, message.utime, bytes);
@@ -60,9 +62,8 @@ class Importer {
 };
 
 std::string summary(const ImportOptions& options, const Written& written) {
-  return options.log.string() + ": " + std::to_string(written.scans) + " CLOUD, " +
-         std::to_string(written.odometry) + " ODOMETRY, " + std::to_string(written.truths) +
-         " TRUTH";
+  return fmt::format("{}: {} CLOUD, {} ODOMETRY, {} TRUTH", options.log.string(), written.scans,
+                     written.odometry, written.truths);
 }
 
 int import_scans(const ImportOptions& options, Console& console) {

@@ -1,3 +1,5 @@
+#include <fmt/core.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
@@ -8,7 +10,6 @@
 #include "services/voxlist/output/fresh_file.h"
 #include "services/voxlist/output/progress.h"
 #include "services/voxlist/output/stop.h"
-#include "services/voxlist/output/text.h"
 #include "services/voxlist/recording/scan_input.h"
 #include "voxlist/io/files/atomic_file.h"
 #include "voxlist/io/files/file.h"
@@ -39,12 +40,11 @@ std::string row(const Located& located) {
   double overlap = 0.0;
   if (!found.modes.empty()) {
     const Pose2& best = found.modes.front().T_map_base;
-    pose = fixed(best.x_m, 6) + "," + fixed(best.y_m, 6) + "," + fixed(best.yaw_rad, 9);
+    pose = fmt::format("{:.6f},{:.6f},{:.9f}", best.x_m, best.y_m, best.yaw_rad);
     overlap = found.modes.front().overlap;
   }
-  return std::to_string(located.number) + "," + name(found.state) + "," + pose + "," +
-         fixed(overlap, 6) + "," + fixed(found.confidence, 6) + "," + fixed(located.elapsed_ms, 3) +
-         "\n";
+  return fmt::format("{},{},{},{:.6f},{:.6f},{:.3f}\n", located.number, name(found.state), pose,
+                     overlap, found.confidence, located.elapsed_ms);
 }
 
 mapping::MapBuilder build(const std::filesystem::path& folder,
@@ -81,18 +81,17 @@ std::vector<Located> locate_all(matching::Localiser& localiser, ScanInput& input
 std::string summary(const std::vector<Located>& results) {
   const auto count = [&](matching::LocalisationState state) {
     const auto is = [state](const Located& l) { return l.localisation.state == state; };
-    return std::to_string(std::ranges::count_if(results, is)) + " " + name(state);
+    return fmt::format("{} {}", std::ranges::count_if(results, is), name(state));
   };
   std::vector<double> times_ms;
   for (const Located& located : results) times_ms.push_back(located.elapsed_ms);
   std::ranges::sort(times_ms);
-  std::string text = std::to_string(results.size()) +
-                     " scans: " + count(matching::LocalisationState::kTracking) + ", " +
-                     count(matching::LocalisationState::kAmbiguous) + ", " +
-                     count(matching::LocalisationState::kLost);
+  std::string text = fmt::format(
+      "{} scans: {}, {}, {}", results.size(), count(matching::LocalisationState::kTracking),
+      count(matching::LocalisationState::kAmbiguous), count(matching::LocalisationState::kLost));
   if (times_ms.empty()) return text;
-  return text + "; a scan took " + fixed(times_ms[times_ms.size() / 2], 1) + " ms (median), " +
-         fixed(times_ms.back(), 1) + " ms at most";
+  return fmt::format("{}; a scan took {:.1f} ms (median), {:.1f} ms at most", text,
+                     times_ms[times_ms.size() / 2], times_ms.back());
 }
 
 int localise(const LocaliseOptions& options, Console& console) {

@@ -1,3 +1,4 @@
+#include <fmt/core.h>
 #include <tbb/global_control.h>
 
 #include <CLI/CLI.hpp>
@@ -10,7 +11,6 @@
 #include "services/voxlist/commands/settings.h"
 #include "services/voxlist/output/progress.h"
 #include "services/voxlist/output/stop.h"
-#include "services/voxlist/output/text.h"
 #include "services/voxlist/recording/given_poses.h"
 #include "voxlist/io/files/file.h"
 
@@ -78,15 +78,14 @@ RunFigures make_map(const MapOptions& options, ScanInput& input, MapRun& run, Co
 void tell(const MapOptions& options, const MapRun& run, const RunFigures& figures,
           Console& console) {
   const double factor = figures.seconds / std::max(figures.elapsed_seconds, 1e-9);
-  console.say(std::to_string(run.trajectory().size()) + " of " + std::to_string(figures.scans) +
-              " scans placed (" + std::to_string(run.lost()) + " lost, " +
-              std::to_string(run.ambiguous()) + " ambiguous, " +
-              std::to_string(figures.without_pose) + " without a pose), " +
-              std::to_string(run.builder().keyframes().size()) + " keyframes, " +
-              std::to_string(run.builder().map().occupied.size()) + " voxels, hash " +
-              hash_text(run.builder().map().occupied));
-  console.say(fixed(figures.seconds, 1) + " s of data in " + fixed(figures.elapsed_seconds, 1) +
-              " s, " + fixed(factor, 1) + " times real time");
+  console.say(
+      fmt::format("{} of {} scans placed ({} lost, {} ambiguous, {} without a pose), {} keyframes, "
+                  "{} voxels, hash {}",
+                  run.trajectory().size(), figures.scans, run.lost(), run.ambiguous(),
+                  figures.without_pose, run.builder().keyframes().size(),
+                  run.builder().map().occupied.size(), hash_text(run.builder().map().occupied)));
+  console.say(fmt::format("{:.1f} s of data in {:.1f} s, {:.1f} times real time", figures.seconds,
+                          figures.elapsed_seconds, factor));
   console.say((options.folder / "map.png").string());
 }
 

@@ -1,6 +1,7 @@
 #include "services/voxlist/commands/map_files.h"
 
-#include <cstdio>
+#include <fmt/core.h>
+
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -88,10 +89,6 @@ void MapFiles::write_summary(const MapRun& run, const RunFigures& figures) {
   summary_.publish();
 }
 
-std::string hash_text(const VoxelMap& map) {
-  char text[17];
-  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(map.hash()));
-  return text;
-}
+std::string hash_text(const VoxelMap& map) { return fmt::format("{:016x}", map.hash()); }
 
 }  // namespace voxlist::desk

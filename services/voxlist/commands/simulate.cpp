@@ -1,3 +1,5 @@
+#include <fmt/core.h>
+
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <stdexcept>
@@ -72,9 +74,9 @@ std::int64_t utime_us(const simulation::SimulatedEvent& event) {
 }
 
 std::string summary(const SimulateOptions& options, const SimulatedLog::Counts& counts) {
-  return options.log.string() + ": " + std::to_string(counts.lines) + " LASER and MIRROR, " +
-         std::to_string(counts.clouds) + " CLOUD, " + std::to_string(counts.slices) +
-         " CLOUD_SLICE, " + std::to_string(counts.odometry) + " ODOMETRY and TRUTH";
+  return fmt::format("{}: {} LASER and MIRROR, {} CLOUD, {} CLOUD_SLICE, {} ODOMETRY and TRUTH",
+                     options.log.string(), counts.lines, counts.clouds, counts.slices,
+                     counts.odometry);
 }
 
 int simulate(const SimulateOptions& options, Console& console) {

@@ -1,3 +1,5 @@
+#include <fmt/core.h>
+
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cmath>
@@ -13,7 +15,6 @@
 #include "services/voxlist/commands/command.h"
 #include "services/voxlist/output/console.h"
 #include "services/voxlist/output/stop.h"
-#include "services/voxlist/output/text.h"
 #include "voxlist/bus/bus.h"
 #include "voxlist/matching/localisation/localisation.h"
 
@@ -48,21 +49,21 @@ class RobotView {
       return "waiting for LOCALISATION: are the services running, and does a scanner publish "
              "CLOUD?";
     const double time_s = static_cast<double>(last_.utime - first_utime_us_) * 1e-6;
-    std::string text = padded(fixed(time_s, 0), 5) + " s  " +
-                       padded(name(static_cast<matching::LocalisationState>(last_.state)), -9);
+    std::string text = fmt::format("{:5.0f} s  {:9}", time_s,
+                                   name(static_cast<matching::LocalisationState>(last_.state)));
     if (!last_.modes.empty()) {
       const double* pose = last_.modes.front().pose;
-      text += "  x " + padded(fixed(pose[0], 2), 7) + " m  y " + padded(fixed(pose[1], 2), 7) +
-              " m  yaw " + padded(fixed(pose[2] * 180.0 / std::numbers::pi, 1), 6) + " deg";
+      text += fmt::format("  x {:7.2f} m  y {:7.2f} m  yaw {:6.1f} deg", pose[0], pose[1],
+                          pose[2] * 180.0 / std::numbers::pi);
     }
-    text += "  map " + padded(std::to_string(keyframes_), 4) + " keyframes";
-    if (std::isfinite(nearest_m_)) text += "  nearest obstacle " + fixed(nearest_m_, 2) + " m";
+    text += fmt::format("  map {:4} keyframes", keyframes_);
+    if (std::isfinite(nearest_m_)) text += fmt::format("  nearest obstacle {:.2f} m", nearest_m_);
     return text;
   }
 
   std::string summary() const {
-    return std::to_string(localisations_) + " clouds, " + std::to_string(tracking_) +
-           " placed, map of " + std::to_string(keyframes_) + " keyframes";
+    return fmt::format("{} clouds, {} placed, map of {} keyframes", localisations_, tracking_,
+                       keyframes_);
   }
 
  private:

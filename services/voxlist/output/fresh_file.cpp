@@ -1,5 +1,6 @@
 #include "services/voxlist/output/fresh_file.h"
 
+#include <fmt/core.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -13,7 +14,7 @@ namespace voxlist::desk {
 namespace fs = std::filesystem;
 
 FreshFile::FreshFile(fs::path target) : target_(std::move(target)), path_(target_) {
-  path_ += ".unfinished-" + std::to_string(getpid());
+  path_ += fmt::format(".unfinished-{}", getpid());
   std::error_code ignored;
   if (fs::exists(target_, ignored) && !fs::is_regular_file(target_, ignored)) {
     throw io::FileError(target_, "is there and no regular file, choose another name");

@@ -1,5 +1,7 @@
 #include "services/voxlist/output/progress.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -42,9 +44,9 @@ void Progress::show(double share) {
 }
 
 std::string Progress::line(double share, double elapsed_s) const {
-  std::string text = doing_ + ": " + std::to_string(std::lround(100.0 * share)) + " %";
+  std::string text = fmt::format("{}: {:.0f} %", doing_, 100.0 * share);
   if (share < kMinShare) return text;
-  return text + ", " + std::to_string(std::lround(elapsed_s * (1.0 - share) / share)) + " s left";
+  return fmt::format("{}, {:.0f} s left", text, elapsed_s * (1.0 - share) / share);
 }
 
 }  // namespace voxlist::desk

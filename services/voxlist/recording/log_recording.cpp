@@ -1,3 +1,5 @@
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <map>
@@ -77,16 +79,16 @@ class LogRecording : public Recording {
   std::optional<Record> decoded(const bus::Event& event, R record) {
     const bus::Fault fault = bus::decode(event.bytes, record.message);
     if (fault == bus::Fault::kNone) return record;
-    omissions_.add(event.channel + "/" + bus::fault_name(fault),
-                   path_.string() + ": " + event.channel + " in event " +
-                       std::to_string(event.number) + " is " + bus::fault_name(fault));
+    omissions_.add(fmt::format("{}/{}", event.channel, bus::fault_name(fault)),
+                   fmt::format("{}: {} in event {} is {}", path_.string(), event.channel,
+                               event.number, bus::fault_name(fault)));
     return std::nullopt;
   }
 
   void tell_damage() {
     for (; damage_told_ < log_.damaged_events(); ++damage_told_) {
-      omissions_.add("damaged events", path_.string() + ": damage before byte " +
-                                           std::to_string(log_.position_bytes()));
+      omissions_.add("damaged events", fmt::format("{}: damage before byte {}", path_.string(),
+                                                   log_.position_bytes()));
     }
   }
 

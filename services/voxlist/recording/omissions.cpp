@@ -1,5 +1,7 @@
 #include "services/voxlist/recording/omissions.h"
 
+#include <fmt/core.h>
+
 namespace voxlist::desk {
 namespace {
 
@@ -10,7 +12,8 @@ constexpr std::int64_t kToldOfEach = 3;
 void Omissions::add(const std::string& reason, const std::string& detail) {
   const std::int64_t count = ++counts_[reason];
   if (count <= kToldOfEach) console_.warn("left out: " + detail);
-  if (count == kToldOfEach) console_.warn("more like this (" + reason + ") are only counted");
+  if (count == kToldOfEach)
+    console_.warn(fmt::format("more like this ({}) are only counted", reason));
 }
 
 std::int64_t Omissions::total() const {
@@ -22,7 +25,7 @@ std::int64_t Omissions::total() const {
 std::string Omissions::summary() const {
   std::string text;
   for (const auto& [reason, count] : counts_) {
-    text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + reason;
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, reason);
   }
   return text;
 }

@@ -1,5 +1,7 @@
 #include "services/voxlist/recording/scan_input.h"
 
+#include <fmt/core.h>
+
 #include <utility>
 
 #include "services/voxlist/output/stop.h"
@@ -28,7 +30,7 @@ std::optional<Scan> ScanInput::take(CloudRecord& record) {
   bus::ReceivedCloud received = bus::from_message(record.message);
   if (!received.cloud) {
     const std::string reason = "CLOUD/" + received.refusal;
-    omissions_.add(reason, "scan " + std::to_string(record.number) + ": " + reason);
+    omissions_.add(reason, fmt::format("scan {}: {}", record.number, reason));
     return std::nullopt;
   }
   last_us_ = received.cloud->utime_us;

@@ -1,5 +1,7 @@
 #include "services/voxlist/recording/scanner_log.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <voxlist/mirror_state_t.hpp>
 #include <voxlist/planar_lidar_t.hpp>
@@ -20,8 +22,8 @@ constexpr std::size_t kMostLines = 10 * 60 * 75;
 template <class M>
 auto read(const bus::Event& event, Omissions& omissions) -> decltype(bus::from_message(M())) {
   const auto leave_out = [&](const std::string& why) {
-    omissions.add(event.channel + "/" + why,
-                  event.channel + " in event " + std::to_string(event.number) + " is " + why);
+    omissions.add(fmt::format("{}/{}", event.channel, why),
+                  fmt::format("{} in event {} is {}", event.channel, event.number, why));
   };
   M message;
   if (const bus::Fault fault = bus::decode(event.bytes, message); fault != bus::Fault::kNone) {
