@@ -3,7 +3,7 @@ find_path(LCM_INCLUDE_DIR lcm/lcm-cpp.hpp REQUIRED)
 find_library(LCM_LIBRARY lcm REQUIRED)
 find_program(LCM_GEN lcm-gen REQUIRED)
 
-add_library(lcm::lcm UNKNOWN IMPORTED)
+add_library(lcm::lcm UNKNOWN IMPORTED GLOBAL)
 set_target_properties(lcm::lcm PROPERTIES
   IMPORTED_LOCATION ${LCM_LIBRARY}
   INTERFACE_INCLUDE_DIRECTORIES ${LCM_INCLUDE_DIR})

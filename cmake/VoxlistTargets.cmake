@@ -4,8 +4,17 @@
 file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/include)
 file(CREATE_LINK ${PROJECT_SOURCE_DIR}/common ${PROJECT_BINARY_DIR}/include/voxlist SYMBOLIC)
 
-# voxlist_library(NAME DEPENDS...): target voxlist_NAME, alias voxlist::NAME, from common/NAME and its sub-folders.
+# voxlist_library(NAME DEPENDS... [PRIVATE DEPENDS...]): target voxlist_NAME, alias voxlist::NAME, from common/NAME and
+# its sub-folders; installed with its headers. Left out, with what needs it, where one of DEPENDS is not there.
 function(voxlist_library name)
+  set(needs ${ARGN})
+  list(REMOVE_ITEM needs PRIVATE)
+  foreach(need IN LISTS needs)
+    if(NOT TARGET ${need})
+      message(STATUS "voxlist::${name} is left out: ${need} is not there")
+      return()
+    endif()
+  endforeach()
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp)
   set(kind STATIC)
   set(scope PUBLIC)
@@ -15,8 +24,10 @@ function(voxlist_library name)
   endif()
   add_library(voxlist_${name} ${kind} ${sources})
   add_library(voxlist::${name} ALIAS voxlist_${name})
+  target_compile_features(voxlist_${name} ${scope} cxx_std_20)
   target_include_directories(voxlist_${name} ${scope} $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include>)
   target_link_libraries(voxlist_${name} ${scope} ${ARGN})
+  voxlist_install_library(${name} ${needs})
 endfunction()
 
 # voxlist_program(NAME DEPENDS...): build/bin/NAME from services/NAME. Everything but main.cpp also
@@ -36,6 +47,7 @@ function(voxlist_program name)
   add_executable(${name}_program ${CMAKE_CURRENT_SOURCE_DIR}/${name}/main.cpp)
   set_target_properties(${name}_program PROPERTIES OUTPUT_NAME ${name})
   target_link_libraries(${name}_program PRIVATE ${library})
+  voxlist_install_program(${name})
 endfunction()
 
 # voxlist_say_where(FILE...): tells those of the files that ask for it where the source and the programs are. Only those:
