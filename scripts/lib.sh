@@ -29,6 +29,15 @@ help_if_asked() {
   esac
 }
 
+# Folder for what outlives a process: maps, recordings, tables. common/system/state_folder.h names the same one.
+state_folder() {
+  local folder=${STATE_DIRECTORY:-}
+  [[ -n $folder ]] || folder=${XDG_STATE_HOME:+$XDG_STATE_HOME/voxlist}
+  [[ -n $folder ]] || folder=${HOME:?no folder for data: set XDG_STATE_HOME, or HOME}/.local/state/voxlist
+  mkdir -p "$folder" || fail "cannot make $folder; set XDG_STATE_HOME to a folder of your own"
+  echo "$folder"
+}
+
 # Folder for locks, sockets and logs of running services; common/service/run_folder.h names the same one.
 run_folder() {
   local folder=${VOXLIST_RUN_DIR:-}

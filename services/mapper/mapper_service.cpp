@@ -16,6 +16,7 @@
 #include "voxlist/bus/map_convert.h"
 #include "voxlist/io/files/file.h"
 #include "voxlist/mapping/map_views.h"
+#include "voxlist/system/state_folder.h"
 
 namespace voxlist::services {
 namespace {
@@ -43,7 +44,12 @@ std::optional<Pose2> pose_of(const localisation_t& message) {
 }  // namespace
 
 MapperService::MapperService(bus::Bus& bus, bus::Health& health, const MapperServiceConfig& config)
-    : bus_(bus), health_(health), config_(config), builder_(config.builder), map_id_(new_map_id()) {
+    : bus_(bus),
+      health_(health),
+      config_(config),
+      folder_(in_state_folder(config.folder)),
+      builder_(config.builder),
+      map_id_(new_map_id()) {
   load();
   bus_.subscribe(bus::kCloud, [this](const pointcloud_t& message) { take_cloud(message); });
   bus_.subscribe(bus::kLocalisation,
@@ -52,13 +58,12 @@ MapperService::MapperService(bus::Bus& bus, bus::Health& health, const MapperSer
 }
 
 void MapperService::load() {
-  if (config_.folder.empty()) return;
-  const std::filesystem::path folder = config_.folder;
-  if (!std::filesystem::exists(folder / mapping::kKeyframeFile)) {
-    store_ = std::make_unique<mapping::MapStore>(folder, map_id_, builder_.keyframes());
+  if (folder_.empty()) return;
+  if (!std::filesystem::exists(folder_ / mapping::kKeyframeFile)) {
+    store_ = std::make_unique<mapping::MapStore>(folder_, map_id_, builder_.keyframes());
     return;
   }
-  mapping::StoredMap stored = mapping::load_map(folder);
+  mapping::StoredMap stored = mapping::load_map(folder_);
   map_id_ = stored.map_id;
   for (mapping::Keyframe& keyframe : stored.keyframes) {
     trajectory_.push_back({keyframe.cloud.utime_us, keyframe.T_map_base});
@@ -66,13 +71,13 @@ void MapperService::load() {
   }
   stored_ = builder_.keyframes().size();
   if (stored.warning.empty()) {
-    store_ = std::make_unique<mapping::MapStore>(folder);
+    store_ = std::make_unique<mapping::MapStore>(folder_);
   } else {
     // What is damaged is kept aside, for whoever wants to look.
-    std::filesystem::copy_file(folder / mapping::kKeyframeFile,
-                               folder / (std::string(mapping::kKeyframeFile) + ".damaged"),
+    std::filesystem::copy_file(folder_ / mapping::kKeyframeFile,
+                               folder_ / (std::string(mapping::kKeyframeFile) + ".damaged"),
                                std::filesystem::copy_options::overwrite_existing);
-    store_ = std::make_unique<mapping::MapStore>(folder, map_id_, builder_.keyframes());
+    store_ = std::make_unique<mapping::MapStore>(folder_, map_id_, builder_.keyframes());
     health_.set_state(bus::Health::State::kWarning, stored.warning);
   }
 }
@@ -211,7 +216,7 @@ void MapperService::save() {
   store_keyframes();
   sync();
   try {
-    mapping::write_map_views(config_.folder, builder_.map().occupied, trajectory_);
+    mapping::write_map_views(folder_, builder_.map().occupied, trajectory_);
     health_.count("saved");
   } catch (const io::FileError& error) {
     health_.count("save_failed");

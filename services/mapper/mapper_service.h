@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -34,7 +35,8 @@ struct MapperServiceConfig {
   template <class Visitor>
   void visit(Visitor& v) {
     v("folder", folder,
-      "where the map is kept; loaded at start when it holds one; empty: in memory alone");
+      "where the map is kept, in the state folder if relative; loaded at start when it holds one; "
+      "empty: in memory alone");
     v("extend", extend, "add clouds to the map; false: only serve the map that is there");
     v("save_period_s", save_period_s, "how often what was added is synced to the disk", 0.1,
       3600.0);
@@ -76,6 +78,7 @@ class MapperService {
   bus::Bus& bus_;
   bus::Health& health_;
   const MapperServiceConfig config_;
+  const std::filesystem::path folder_;
   mapping::MapBuilder builder_;
   std::int64_t map_id_ = 0;
   std::unique_ptr<mapping::MapStore> store_;

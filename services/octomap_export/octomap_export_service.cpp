@@ -12,6 +12,7 @@
 
 #include "voxlist/bus/bus.h"
 #include "voxlist/bus/health.h"
+#include "voxlist/system/state_folder.h"
 
 namespace voxlist::services {
 namespace {
@@ -24,7 +25,11 @@ constexpr std::int64_t kPublishPeriod_us = kSecond_us;
 
 OctomapExportService::OctomapExportService(bus::Bus& bus, bus::Health& health,
                                            const OctomapExportConfig& config)
-    : bus_(bus), health_(health), config_(config), builder_(config.octomap) {
+    : bus_(bus),
+      health_(health),
+      config_(config),
+      folder_(in_state_folder(config.folder)),
+      builder_(config.octomap) {
   bus_.subscribe(bus::kKeyframe, [this](const keyframe_t& m) { take(m); });
 }
 
@@ -63,7 +68,7 @@ void OctomapExportService::insert(const bus::PosedCloud& keyframe) {
   utime_us_ = keyframe.cloud.utime_us;
   keyframes_ = keyframe.index + std::int64_t{1};
   publishing_.changed = true;
-  saving_.changed = !config_.folder.empty();
+  saving_.changed = !folder_.empty();
 }
 
 void OctomapExportService::ask(std::int32_t first, std::int64_t now_us) {
@@ -103,10 +108,9 @@ void OctomapExportService::save(std::int64_t now_us) {
 }
 
 void OctomapExportService::write_files() const {
-  const std::filesystem::path folder(config_.folder);
-  std::filesystem::create_directories(folder);
-  builder_.write_bt(folder / "map.bt");
-  builder_.write_ot(folder / "map.ot");
+  std::filesystem::create_directories(folder_);
+  builder_.write_bt(folder_ / "map.bt");
+  builder_.write_ot(folder_ / "map.ot");
 }
 
 void OctomapExportService::report() {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -23,7 +24,9 @@ struct OctomapExportConfig {
 
   template <class Visitor>
   void visit(Visitor& v) {
-    v("folder", folder, "for map.bt and map.ot; made if it is not there; empty: no files");
+    v("folder", folder,
+      "for map.bt and map.ot, in the state folder if relative; made if it is not there; "
+      "empty: no files");
     v("save_period_s", save_period_s,
       "files are written this often if something changed; 0: only on stop", 0.0, 86'400.0);
     octomap.visit(v);
@@ -64,6 +67,7 @@ class OctomapExportService {
   bus::Bus& bus_;
   bus::Health& health_;
   const OctomapExportConfig config_;
+  const std::filesystem::path folder_;
   KeyframeQueue queue_;
   planning::OctomapBuilder builder_;
   // Map and time of the newest keyframe inserted.

@@ -2,8 +2,8 @@
 // included, against the paper's filter stopped at 0.04 m, on the same scans of the same floor.
 // Arguments: queries (1), seed of the floor (1), and --csv FILE. CPU time of one thread.
 //
-// The filter takes minutes for a query: what it once took on this machine is kept in
-// logs/bench_search_filter.csv, and only what is not there is run. Delete it to measure anew.
+// The filter takes minutes for a query: what it once took on this machine is kept in the state
+// folder, in bench_search_filter.csv, and only what is not there is run. Delete it to measure anew.
 #include <tbb/global_control.h>
 #include <time.h>
 
@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <map>
@@ -20,6 +21,7 @@
 #include "tests/bench/test_floor.h"
 #include "voxlist/matching/engines/matcher.h"
 #include "voxlist/matching/paper/particle_filter.h"
+#include "voxlist/system/state_folder.h"
 
 namespace voxlist::bench {
 namespace {
@@ -142,6 +144,11 @@ std::vector<Figure> run(const TestFloorConfig& config, int queries, FilterLog lo
           {config.name, "search over filter", "queries", static_cast<double>(queries)}};
 }
 
+std::string filter_log() {
+  std::filesystem::create_directories(state_folder());
+  return state_folder() / "bench_search_filter.csv";
+}
+
 }  // namespace
 }  // namespace voxlist::bench
 
@@ -154,7 +161,7 @@ int main(int argc, char** argv) {
   const int queries = !brief && argc > 1 ? std::atoi(argv[1]) : 1;
   const int seed = !brief && argc > 2 ? std::atoi(argv[2]) : 1;
   const TestFloorConfig config = brief ? floor_16_13(seed) : floor_60_40(seed);
-  const std::string file = brief ? "/dev/null" : VOXLIST_SOURCE_DIR "/logs/bench_search_filter.csv";
+  const std::string file = brief ? "/dev/null" : filter_log();
   const std::vector<Figure> figures = run(config, queries, FilterLog(file, config.name));
   if (csv) append_csv(*csv, "bench_search", figures);
 }
