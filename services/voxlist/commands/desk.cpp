@@ -37,7 +37,9 @@ int run_desk(std::vector<std::string> arguments, Console& console) {
   add_localise(program, chosen);
   add_evaluate(program, chosen);
   add_simulate(program, chosen);
+#ifdef VOXLIST_CALIBRATION
   add_calibrate(program, chosen);
+#endif
   add_watch(program, chosen);
   try {
     std::ranges::reverse(arguments);  // as CLI11 wants them
