@@ -9,21 +9,20 @@ namespace voxlist::matching {
 namespace {
 
 // Surfels that lie near each other share an error of the map (the lattice, the pose of the scan
-// that saw them): about so many have one. Chosen with kTiltExcess so that the errors of
-// bench_tracking (seeds 1 to 9) have the covariance that is told: the mean of squares in its units
-// is 0.8 to 1.5 on exact maps, 3.4 to 4.1 on maps of misplaced scans (3 is exact). Fewer: too sure.
-// More: too unsure.
+// that saw them): about so many have one. Errors in units of the covariance, as the mean of squares
+// (bench_tracking 40 1; 3 is exact), on an exact map and on one of misplaced scans: 1.8 and 6.9
+// with 1, 1.2 and 4.9 with 7, 0.6 and 2.7 with 30. Less claims too much, more too little.
 constexpr double kSharing = 7.0;
 
 // No surfel's mean is surer than this (m): all surfels share half a voxel's rounding and the like,
-// which residuals cannot tell. 0.02 m / sqrt(12) is 6 mm for one voxel; a surfel's many voxels
-// average about half of it away. A judgement: without it, scans that happen to fit well would be
-// sure to fractions of a millimetre.
+// which residuals cannot tell. It is half of the 6 mm that one voxel of 0.02 m scatters by. The
+// mean of squares (as above) is 1.9 and 7.2 without it, 1.2 and 4.9 with it.
 constexpr double kLeastSurfelSigma_m = 0.003;
 
-// The normals of real surfels scatter so many times as much (variance) as voxels that err
-// independently would let them: neighbouring voxels err together. Below it, corridors hold their
-// long axis by chance, and the pose there is claimed surer than it is.
+// The variance of a surfel's normal is so many times what its voxels would give if each erred by
+// itself; neighbouring voxels err together. It matters where a corridor's long axis is held by
+// chance alone (covariance_test); in rooms the mean of squares changes by 3 % between 0 and 8. A
+// judgement.
 constexpr double kTiltExcess = 2.0;
 
 // What the points of one surfel say together.

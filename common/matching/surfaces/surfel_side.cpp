@@ -10,12 +10,12 @@ namespace {
 // Rays are looked for from this far off a surface (m), three voxels: nearer ones may be noise of
 // the surface itself.
 constexpr double kFirst_m = 0.06;
-// From there on in this many steps (m): to 0.16 m, about the thickness of a wall and two cells of
-// what rays passed. Farther, the rays of the next room would count.
+// From there on rays are looked for in so many steps (m), to 0.16 m: about the thickness of a wall
+// and two cells of what rays passed. Farther, the rays of the next room would count.
 constexpr double kStep_m = 0.02;
 constexpr int kSteps = 6;
-// Voxels of a surfel from which its sides are looked at. More take longer and hardly change a
-// surfel's side, as cells of 0.08 m that rays passed are as large as the surfel's quarter.
+// Voxels of a surfel from which its sides are looked at: each takes time, and cells of 0.08 m that
+// rays passed are as large as a quarter of a surfel's edge. A judgement.
 constexpr std::size_t kSamples = 8;
 
 // Looks voxels up that lie near each other, mostly in a block that was asked for before: of the
