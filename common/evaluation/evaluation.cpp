@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "voxlist/evaluation/association.h"
+#include "voxlist/geometry/elementary.h"
 #include "voxlist/system/check.h"
 
 namespace voxlist::evaluation {
@@ -66,8 +67,8 @@ ErrorStatistics errors_3d(const Pose2& T_truth_estimate, const Matches& matches)
   };
   std::vector<double> errors;
   for (const Match& m : matches) {
-    errors.push_back(std::hypot(distance_m(T_truth_estimate * m.estimate2, m.truth2),
-                                height_error(m) - height_error(matches.front())));
+    errors.push_back(elementary::hypot(distance_m(T_truth_estimate * m.estimate2, m.truth2),
+                                       height_error(m) - height_error(matches.front())));
   }
   return statistics(errors);
 }
@@ -161,7 +162,7 @@ Pose2 align(const std::vector<Vector2d>& from, const std::vector<Vector2d>& to) 
     along += a.dot(b);
     across += a.x() * b.y() - a.y() * b.x();
   }
-  const Pose2 turn{0.0, 0.0, std::atan2(across, along)};
+  const Pose2 turn{0.0, 0.0, elementary::atan2(across, along)};
   return Pose2{to_mean.x(), to_mean.y(), 0.0} * turn * Pose2{-from_mean.x(), -from_mean.y(), 0.0};
 }
 

@@ -33,6 +33,10 @@ Pose2 part_of(const Pose2& motion, double share);
 /// A spatial rigid transform T_a_b.
 using Pose3 = Eigen::Isometry3d;
 
+/// Right-handed rotation about an axis of unit length, with the same bits on every machine
+/// (elementary.h), which Eigen's AngleAxis does not promise.
+Eigen::Matrix3d rotation(double angle_rad, const Eigen::Vector3d& axis);
+
 /// The planar transform as a spatial one: z = 0, no roll, no pitch.
 Pose3 to_pose3(const Pose2& pose);
 

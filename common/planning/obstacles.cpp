@@ -7,6 +7,8 @@
 #include <numbers>
 #include <utility>
 
+#include "voxlist/geometry/elementary.h"
+
 namespace voxlist::planning {
 namespace {
 
@@ -21,7 +23,7 @@ CellKey cell_of(const Eigen::Vector3f& p, double cell_m) {
 std::vector<Eigen::Vector3f> in_band(const Cloud& cloud, const ObstacleConfig& config) {
   std::vector<Eigen::Vector3f> points;
   for (const Eigen::Vector3f& p : cloud.points) {
-    const double height = p.z() - config.floor_z_m, range = std::hypot(p.x(), p.y());
+    const double height = p.z() - config.floor_z_m, range = elementary::hypot(p.x(), p.y());
     if (height >= config.min_height_m && height <= config.max_height_m &&
         range >= config.min_range_m && range <= config.max_range_m)
       points.push_back(p);
@@ -47,7 +49,7 @@ CellCounts supported(const CellCounts& counts, int min_points) {
 }
 
 std::size_t sector_of(const Eigen::Vector3f& p, int sectors) {
-  const double turns = std::atan2(p.y(), p.x()) / (2.0 * std::numbers::pi);
+  const double turns = elementary::atan2(p.y(), p.x()) / (2.0 * std::numbers::pi);
   const auto sector = static_cast<int>(std::lround(turns * sectors));
   return static_cast<std::size_t>((sector + sectors) % sectors);
 }
@@ -68,7 +70,7 @@ ObstacleScan nearest_obstacles(const Cloud& cloud_base, const ObstacleConfig& co
   for (const Eigen::Vector3f& p : points) {
     if (!obstacles.contains(cell_of(p, config.cell_m))) continue;
     float& range = scan.ranges_m[sector_of(p, config.sectors)];
-    range = std::min(range, std::hypot(p.x(), p.y()));
+    range = std::min(range, static_cast<float>(elementary::hypot(p.x(), p.y())));
   }
   for (const auto& [cell, count] : obstacles)
     scan.cells_m.emplace_back(

@@ -33,6 +33,15 @@ TEST(Pose2, MovesPointsAndKeepsTheirHeight) {
   EXPECT_EQ(p.z(), 0.5);
 }
 
+TEST(Rotation, TurnsAsEigensAngleAxisDoes) {
+  for (const double angle : {-3.0, -0.4, 0.0, 1e-9, 0.7, 2.9}) {
+    const Eigen::Vector3d axis = Eigen::Vector3d(0.3, -1.2, 0.8).normalized();
+    EXPECT_LT((rotation(angle, axis) - Eigen::AngleAxisd(angle, axis).toRotationMatrix()).norm(),
+              1e-15)
+        << angle;
+  }
+}
+
 TEST(WrapAngle, StaysInTheHalfOpenCircle) {
   EXPECT_DOUBLE_EQ(wrap_angle(-kPi), kPi);
   EXPECT_DOUBLE_EQ(wrap_angle(kPi), kPi);

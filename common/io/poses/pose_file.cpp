@@ -127,11 +127,10 @@ class RowReader {
       }
       return *q;
     }
-    using Eigen::AngleAxisd;
     using Eigen::Vector3d;
-    return AngleAxisd(value(columns_.yaw), Vector3d::UnitZ()) *
-           AngleAxisd(value(columns_.pitch), Vector3d::UnitY()) *
-           AngleAxisd(value(columns_.roll), Vector3d::UnitX());
+    return Eigen::Quaterniond(voxlist::rotation(value(columns_.yaw), Vector3d::UnitZ()) *
+                              voxlist::rotation(value(columns_.pitch), Vector3d::UnitY()) *
+                              voxlist::rotation(value(columns_.roll), Vector3d::UnitX()));
   }
 
   const CsvTable& csv_;

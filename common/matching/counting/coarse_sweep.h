@@ -21,7 +21,8 @@ struct NodeCounts {
 /// Which instructions are used; all give the same counts.
 enum class Instructions { kPortable, kAvx2, kAvx512 };
 
-/// The fastest that this processor has.
+/// The fastest that this processor has, or slower ones that VOXLIST_INSTRUCTIONS names (portable,
+/// avx2): a test compares the maps that each makes.
 Instructions best_instructions();
 
 /// Counts the cells that fall on marked ones, for every translation of the map by whole coarse

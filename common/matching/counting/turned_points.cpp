@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "voxlist/geometry/elementary.h"
+
 namespace voxlist::matching {
 namespace {
 
@@ -29,8 +31,9 @@ class TurnedPoints::Turn {
     for (std::int32_t a = 0; a < kGroup; ++a) {
       const double yaw_rad = points.yaw_rad(group * kGroup + a);
       const auto i = static_cast<std::size_t>(a);
-      cosines_[i] = static_cast<float>(std::cos(yaw_rad) / points.map_.cell_m());
-      sines_[i] = static_cast<float>(std::sin(yaw_rad) / points.map_.cell_m());
+      const auto [sine, cosine] = elementary::sine_cosine(yaw_rad);
+      cosines_[i] = static_cast<float>(cosine / points.map_.cell_m());
+      sines_[i] = static_cast<float>(sine / points.map_.cell_m());
     }
   }
 
@@ -85,7 +88,7 @@ TurnedPoints::TurnedPoints(const TolerantMap& map, std::span<const Eigen::Vector
     if (z < 0 || z >= map.size_z()) continue;
     points_.emplace_back(p.x(), p.y());
     layers_.push_back(z);
-    radius_m = std::max(radius_m, std::hypot(double(p.x()), double(p.y())));
+    radius_m = std::max(radius_m, elementary::hypot(double(p.x()), double(p.y())));
   }
   groups_ =
       static_cast<std::int32_t>(std::ceil(kSlack * kTwoPi * radius_m / map.cell_m() / kGroup));

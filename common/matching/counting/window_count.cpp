@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "voxlist/geometry/elementary.h"
 #include "voxlist/matching/counting/window_count_kernel.h"
 #include "voxlist/voxels/fast_cell.h"
 
@@ -33,9 +34,10 @@ WindowCount::WindowCount(const WindowMap& map, double cell_m, const MatchPoints&
 std::vector<std::int64_t> WindowCount::places(double yaw_rad, std::int32_t x,
                                               std::int32_t y) const {
   std::vector<std::int64_t> places(layers_.size());
-  const TurnJob job{x_m_.data(),    y_m_.data(),       layers_.data(),
-                    layers_.size(), std::cos(yaw_rad), std::sin(yaw_rad),
-                    cells_per_m_,   map_.row_bytes(),  map_.place(x, y, 0) - map_.place(0, 0, 0),
+  const auto [sine, cosine] = elementary::sine_cosine(yaw_rad);
+  const TurnJob job{x_m_.data(),    y_m_.data(),      layers_.data(),
+                    layers_.size(), cosine,           sine,
+                    cells_per_m_,   map_.row_bytes(), map_.place(x, y, 0) - map_.place(0, 0, 0),
                     places.data()};
   switch (instructions_) {
     case Instructions::kPortable:

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
+#include "voxlist/geometry/elementary.h"
 #include "voxlist/matching/engines/match_modes.h"
 #include "voxlist/matching/paper/particle_filter.h"
 
@@ -63,7 +65,8 @@ class ParticleFilterMatcher : public Matcher {
 
   static int final_factor(const VoxelMap& map, const MatcherConfig& config) {
     const double factor = config.resolution_m / map.resolution_m();
-    return 1 << std::clamp(static_cast<int>(std::lround(std::log2(factor))), 0, 6);
+    return 1 << std::clamp(
+               static_cast<int>(std::lround(elementary::log(factor) / std::numbers::ln2)), 0, 6);
   }
 
   const OccupancyMap& map_;

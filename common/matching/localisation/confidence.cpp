@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "voxlist/geometry/elementary.h"
+
 namespace voxlist::matching {
 namespace {
 
@@ -13,7 +15,9 @@ constexpr double kPlacePower = 27.0, kNearSlack = 0.05;
 constexpr double kFoundBias = -11.5, kFoundSupport = 4.6, kFoundRival = 6.9;
 constexpr double kEvenSlack = 0.02;
 
-double log_unexplained(double support, double slack) { return std::log(1.0 - support + slack); }
+double log_unexplained(double support, double slack) {
+  return elementary::log(1.0 - support + slack);
+}
 
 }  // namespace
 
@@ -34,11 +38,11 @@ std::vector<double> probabilities(std::span<const Odds> places) {
   if (places.empty()) return {};
   const auto best = std::max_element(
       places.begin(), places.end(), [](const Odds& a, const Odds& b) { return a.place < b.place; });
-  const double found = 1.0 / (1.0 + std::exp(-best->found));
+  const double found = 1.0 / (1.0 + elementary::exp(-best->found));
   std::vector<double> result;
   double sum = 0.0;
   for (const Odds& odds : places) {
-    result.push_back(std::exp(odds.place - best->place));
+    result.push_back(elementary::exp(odds.place - best->place));
     sum += result.back();
   }
   for (double& p : result) p *= found / sum;

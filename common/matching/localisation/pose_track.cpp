@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "voxlist/geometry/elementary.h"
 #include "voxlist/matching/engines/match_modes.h"
 
 namespace voxlist::matching {
@@ -57,7 +58,7 @@ double PoseTrack::surprise(const Pose2& pose, const Pose2& predicted, bool odome
   }
   const double d = distance_m(pose, predicted) / prior.scale_m,
                turn = turn_rad(pose, predicted) / prior.scale_rad;
-  return prior.weight * std::log1p(d * d + turn * turn);
+  return prior.weight * elementary::log1p(d * d + turn * turn);
 }
 
 Match PoseTrack::match(Matcher& matcher, const Cloud& cloud,

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "voxlist/geometry/elementary.h"
 #include "voxlist/matching/paper/overlap.h"
 #include "voxlist/voxels/occupancy_list.h"
 
@@ -51,7 +52,7 @@ void check(const PoseWindow& w) {
 
 OccupancyList turned_scan(std::span<const Eigen::Vector3f> points, double yaw_rad,
                           double resolution_m) {
-  const double c = std::cos(yaw_rad), s = std::sin(yaw_rad);
+  const auto [s, c] = elementary::sine_cosine(yaw_rad);
   std::vector<Voxel> voxels;
   voxels.reserve(points.size());
   for (const auto& p : points) {
@@ -88,7 +89,7 @@ double horizontal_radius_m(std::span<const Eigen::Vector3f> points_base) {
   double radius_m = 0.0;
   for (const auto& p : points_base) {
     if (in_lattice(p, kFinestResolution_m))
-      radius_m = std::max(radius_m, std::hypot(double(p.x()), double(p.y())));
+      radius_m = std::max(radius_m, elementary::hypot(double(p.x()), double(p.y())));
   }
   return radius_m;
 }

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "voxlist/geometry/elementary.h"
 #include "voxlist/system/check.h"
 
 namespace voxlist::matching {
@@ -31,11 +32,18 @@ std::int64_t lowest_overlap(const ChanceModel& m) {
 
 std::int64_t highest_overlap(const ChanceModel& m) { return std::min(m.scan_voxels, m.map_voxels); }
 
+// Of a small whole number.
+double factorial(double x) {
+  double product = 1.0;
+  for (double i = 2.0; i <= x; i += 1.0) product *= i;
+  return product;
+}
+
 // ln(x!) less its leading terms (x + 1/2) ln x - x + ln(2 pi) / 2. Precondition: x >= 1.
 double stirling_rest(double x) {
   if (x < 16.0) {
-    return std::log(std::tgamma(x + 1.0)) - (x + 0.5) * std::log(x) + x -
-           0.5 * std::log(2.0 * std::numbers::pi);
+    return elementary::log(factorial(x)) - (x + 0.5) * elementary::log(x) + x -
+           0.5 * elementary::log(2.0 * std::numbers::pi);
   }
   const double x2 = x * x;
   return (1.0 / 12.0 - (1.0 / 360.0 - (1.0 / 1260.0 - 1.0 / (1680.0 * x2)) / x2) / x2) / x;
@@ -47,9 +55,9 @@ double log_choose(std::int64_t a, std::int64_t b) {
   if (b == 0 || b == a) return 0.0;
   const auto whole = static_cast<double>(a), part = static_cast<double>(std::min(b, a - b));
   const double rest = whole - part;
-  return part * std::log(whole / part) - rest * std::log1p(-part / whole) +
-         0.5 * std::log(whole / (2.0 * std::numbers::pi * part * rest)) + stirling_rest(whole) -
-         stirling_rest(part) - stirling_rest(rest);
+  return part * elementary::log(whole / part) - rest * elementary::log1p(-part / whole) +
+         0.5 * elementary::log(whole / (2.0 * std::numbers::pi * part * rest)) +
+         stirling_rest(whole) - stirling_rest(part) - stirling_rest(rest);
 }
 
 double log_probability(const ChanceModel& m, std::int64_t k) {
@@ -126,12 +134,12 @@ double log10_overlap_tail(const ChanceModel& model, std::int64_t overlap) {
   // Outward from the largest term, so that no partial sum can overflow.
   const std::int64_t start = std::max(overlap, mode(model));
   const double sum = sum_up(model, start) + sum_down(model, start, overlap) - 1.0;
-  return std::min(0.0, (log_probability(model, start) + std::log(sum)) / std::numbers::ln10);
+  return std::min(0.0, (log_probability(model, start) + elementary::log(sum)) / std::numbers::ln10);
 }
 
 double log10_best_of(double log10_tail, double poses) {
   VOXLIST_CHECK(poses >= 1.0, std::to_string(poses) + " poses");
-  return std::min(0.0, log10_tail + std::log10(poses));
+  return std::min(0.0, log10_tail + elementary::log(poses) / std::numbers::ln10);
 }
 
 double required_z(double p_max, double poses) {

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include "voxlist/geometry/elementary.h"
 #include "voxlist/voxels/fast_cell.h"
 #include "voxlist/voxels/numbering.h"
 
@@ -43,7 +44,7 @@ struct Spread {
       return (static_cast<double>(ab) - static_cast<double>(a * b) / count) / count;
     };
     const double vx = variance(xx, x, x), vy = variance(yy, y, y), vxy = variance(xy, x, y);
-    const double narrow = (vx + vy) / 2.0 - std::hypot((vx - vy) / 2.0, vxy);
+    const double narrow = (vx + vy) / 2.0 - elementary::hypot((vx - vy) / 2.0, vxy);
     const double height = variance(zz, z, z);
     return height < kThickest * kThickest && narrow > kFlatness * kFlatness * (height + 1.0 / 12.0);
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "voxlist/geometry/elementary.h"
 #include "voxlist/matching/counting/window_counters.h"
 
 namespace voxlist::matching {
@@ -17,7 +18,8 @@ constexpr std::int32_t kHalfWindow = TolerantMap::kWindow / 2;
 // Counts of 8 x 8 translations about a cell.
 WindowCounters counts_at(const TolerantMap& map, std::span<const Eigen::Vector3f> points,
                          double yaw_rad, const Voxel& cell) {
-  const double c = std::cos(yaw_rad) / map.cell_m(), s = std::sin(yaw_rad) / map.cell_m();
+  const auto [sine, cosine] = elementary::sine_cosine(yaw_rad);
+  const double c = cosine / map.cell_m(), s = sine / map.cell_m();
   const auto window_of = [&](const Eigen::Vector3f& p) {
     const double x = c * p.x() - s * p.y(), y = s * p.x() + c * p.y();
     return map.window_anywhere(static_cast<std::int32_t>(std::floor(x)) + cell.x - kHalfWindow,
@@ -40,7 +42,7 @@ Pose2 middle_of_peak(const TolerantMap& map, std::span<const Eigen::Vector3f> po
                      const Pose2& best) {
   double radius_m = map.cell_m();
   for (const auto& p : points)
-    radius_m = std::max(radius_m, std::hypot(double(p.x()), double(p.y())));
+    radius_m = std::max(radius_m, elementary::hypot(double(p.x()), double(p.y())));
   const double step_rad = map.cell_m() / radius_m;
   const auto steps = static_cast<std::int64_t>(std::lround(kHalfTurn_rad / step_rad));
   const auto cell_at = [&](double value_m) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "voxlist/geometry/elementary.h"
 #include "voxlist/system/check.h"
 #include "voxlist/voxels/fast_cell.h"
 #include "voxlist/voxels/numbering.h"
@@ -161,7 +162,7 @@ Voxel EvidenceMap::cell_of(const Voxel& block) const {
 Evidence EvidenceMap::at(const Pose2& pose, const std::vector<EvidenceRay>& rays) const {
   VOXLIST_CHECK(map_.revision() == revision_, "the map has changed and map_grew() was not called");
   Evidence sum;
-  const double c = std::cos(pose.yaw_rad), s = std::sin(pose.yaw_rad);
+  const auto [s, c] = elementary::sine_cosine(pose.yaw_rad);
   const auto moved = [&](const Eigen::Vector3f& p) {
     return Eigen::Vector3d(pose.x_m + c * p.x() - s * p.y(), pose.y_m + s * p.x() + c * p.y(),
                            p.z());

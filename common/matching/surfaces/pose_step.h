@@ -40,14 +40,14 @@ Step<kDof> slope(const Eigen::Vector3d& n, const Eigen::Vector3d& arm) {
 
 inline void move(const Step<3>& step, Pose3& pose) {
   pose.translation().head<2>() += step.head<2>();
-  pose.linear() = Eigen::AngleAxisd(step.z(), Eigen::Vector3d::UnitZ()) * pose.linear();
+  pose.linear() = rotation(step.z(), Eigen::Vector3d::UnitZ()) * pose.linear();
 }
 
 inline void move(const Step<6>& step, Pose3& pose) {
   const Eigen::Vector3d turn = step.tail<3>();
   const double angle = turn.norm();
   pose.translation() += step.head<3>();
-  if (angle > 0.0) pose.linear() = Eigen::AngleAxisd(angle, turn / angle) * pose.linear();
+  if (angle > 0.0) pose.linear() = rotation(angle, turn / angle) * pose.linear();
 }
 
 }  // namespace voxlist::matching

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "voxlist/geometry/elementary.h"
 #include "voxlist/matching/surfaces/plane_fit.h"
 #include "voxlist/matching/surfaces/surfel_side.h"
 #include "voxlist/matching/surfaces/wall_faces.h"
@@ -16,7 +17,7 @@ bool enough(std::span<const Voxel> voxels, const SurfelConfig& config) {
 bool is_surface(const Plane& plane, double resolution_m, const SurfelConfig& config) {
   if (plane.deviations(0) * resolution_m > config.max_thickness_m) return false;
   // Without the lattice's own thickness a perfect plane would have infinite flatness.
-  const double thickness = std::hypot(plane.deviations(0), std::sqrt(kLatticeVariance));
+  const double thickness = elementary::hypot(plane.deviations(0), std::sqrt(kLatticeVariance));
   return plane.deviations(1) >= config.min_flatness * thickness;
 }
 

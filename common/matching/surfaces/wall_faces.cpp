@@ -48,7 +48,8 @@ std::optional<double> find_gap(const Plane& plane, std::span<const Voxel> voxels
                                double resolution_m) {
   const double total = plane.deviations(0) * plane.deviations(0);
   // The variance of two equal layers is a quarter of their gap's square, of others less.
-  if (4.0 * total < std::pow(kSmallestGap_m / resolution_m, 2)) return std::nullopt;
+  const double smallest = kSmallestGap_m / resolution_m;  // in voxels
+  if (4.0 * total < smallest * smallest) return std::nullopt;
   double cut = 0.0;
   Layers layers(plane, voxels, cut);
   for (int step = 1; step <= kMostSteps; ++step) {

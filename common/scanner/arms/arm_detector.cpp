@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "voxlist/geometry/elementary.h"
+
 namespace voxlist::scanner {
 namespace {
 
@@ -95,7 +97,7 @@ std::vector<ArmPassage> ArmDetector::add(const LaserLine& line) {
 }
 
 bool ArmDetector::is_near(const LaserLine& line, std::size_t beam) const {
-  return line.ranges_m[beam] * std::sin(line.angle_rad(beam)) < height_max_m_;
+  return line.ranges_m[beam] * elementary::sin(line.angle_rad(beam)) < height_max_m_;
 }
 
 bool ArmDetector::shows_edge(const LaserLine& line, const BlockingArm& arm) const {

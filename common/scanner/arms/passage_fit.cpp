@@ -5,6 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "voxlist/geometry/elementary.h"
+
 namespace voxlist::scanner {
 namespace {
 
@@ -26,9 +28,10 @@ constexpr double kRoughRateSd_radps = 0.1, kCrystalRateSd_radps = 3e-4;
 // all.
 constexpr double kMaxSd_rad = 0.2;
 
-double logistic(double x) { return 1.0 / (1.0 + std::exp(-x)); }
+double logistic(double x) { return 1.0 / (1.0 + elementary::exp(-x)); }
 double softplus(double x) {
-  return x > 0.0 ? x + std::log1p(std::exp(-x)) : std::log1p(std::exp(x));
+  return x > 0.0 ? x + elementary::log1p(elementary::exp(-x))
+                 : elementary::log1p(elementary::exp(x));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "voxlist/geometry/elementary.h"
 #include "voxlist/geometry/seconds_between.h"
 #include "voxlist/scanner/arms/passage_angles.h"
 #include "voxlist/system/check.h"
@@ -86,7 +87,7 @@ double MirrorByArms::residual_rad() const {
   VOXLIST_CHECK(locked(), "the residual is asked for before passages fit each other");
   const double step_rad = 2.0 * std::numbers::pi / config_.steps_per_revolution;
   const double stair_rad = config_.staircase ? step_rad / std::sqrt(12.0) : 0.0;
-  return std::hypot(track_->residual_rad(), stair_rad);
+  return elementary::hypot(track_->residual_rad(), stair_rad);
 }
 
 }  // namespace voxlist::scanner

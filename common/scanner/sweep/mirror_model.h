@@ -4,6 +4,8 @@
 #include <Eigen/Geometry>
 #include <array>
 
+#include "voxlist/geometry/elementary.h"
+
 namespace voxlist::scanner {
 
 /// The optics of a 2D laser that looks up at a turning two-sided mirror. Laser frame: the optical
@@ -35,8 +37,8 @@ struct MirrorModel {
   /// enough is not asked: near edge-on (phi = 2 psi near 0) the answer is no measurement.
   Ray reflect(const T& psi_rad, double beam_rad) const {
     using Vector = Eigen::Matrix<T, 3, 1>;
-    using std::cos, std::sin;
-    const Vector d(T(0), T(std::cos(beam_rad)), T(std::sin(beam_rad)));
+    const auto [sine, cosine] = elementary::sine_cosine(beam_rad);
+    const Vector d(T(0), T(cosine), T(sine));
     const int side = facing_side(psi_rad, d);
     const Vector n = normal(psi_rad, side);
     const Vector axis_point(T(0), T(0), height_m);
@@ -47,7 +49,7 @@ struct MirrorModel {
 
  private:
   Eigen::Matrix<T, 3, 1> normal(const T& psi_rad, int side) const {
-    using std::cos, std::sin;
+    using elementary::cos, elementary::sin;  // Ceres has its own for its numbers
     const T psi = psi_rad + phase_rad[static_cast<std::size_t>(side)];
     const T sign = T(side == 0 ? 1 : -1);
     // R_axis = Rz(yaw) Rx(roll), on (cos psi, 0, sin psi).

@@ -20,12 +20,13 @@ MirrorModel<> ScannerGeometry::model() const {
 }
 
 Pose3 ScannerGeometry::T_base_laser() const {
-  using Eigen::AngleAxisd, Eigen::Vector3d;
-  return Eigen::Translation3d(mount_x_m, mount_y_m, mount_z_m) *
-         AngleAxisd(mount_yaw_deg * kRadians, Vector3d::UnitZ()) *
-         AngleAxisd(mount_pitch_deg * kRadians, Vector3d::UnitY()) *
-         AngleAxisd(mount_roll_deg * kRadians, Vector3d::UnitX()) *
-         Eigen::Translation3d(0.0, 0.0, -mirror_height_m);
+  using Eigen::Vector3d;
+  Pose3 T = Pose3::Identity();
+  T.linear() = rotation(mount_yaw_deg * kRadians, Vector3d::UnitZ()) *
+               rotation(mount_pitch_deg * kRadians, Vector3d::UnitY()) *
+               rotation(mount_roll_deg * kRadians, Vector3d::UnitX());
+  T.translation() = Vector3d(mount_x_m, mount_y_m, mount_z_m) - mirror_height_m * T.linear().col(2);
+  return T;
 }
 
 }  // namespace voxlist::scanner

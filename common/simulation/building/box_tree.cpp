@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "voxlist/geometry/elementary.h"
+
 namespace voxlist::simulation {
 namespace {
 
@@ -13,12 +15,13 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Eigen::Vector3d turned(const Eigen::Vector3d& v, double yaw_rad) {
   if (yaw_rad == 0.0) return v;
-  const double c = std::cos(yaw_rad), s = std::sin(yaw_rad);
+  const auto [s, c] = elementary::sine_cosine(yaw_rad);
   return {c * v.x() - s * v.y(), s * v.x() + c * v.y(), v.z()};
 }
 
 Eigen::Array3d half_bounds(const Box& box) {
-  const double c = std::abs(std::cos(box.yaw_rad)), s = std::abs(std::sin(box.yaw_rad));
+  const auto [sine, cosine] = elementary::sine_cosine(box.yaw_rad);
+  const double c = std::abs(cosine), s = std::abs(sine);
   const Eigen::Vector3d& h = box.half_m;
   return {c * h.x() + s * h.y(), s * h.x() + c * h.y(), h.z()};
 }

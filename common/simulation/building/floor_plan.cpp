@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "voxlist/geometry/elementary.h"
 #include "voxlist/simulation/random.h"
 
 namespace voxlist::simulation {
@@ -138,7 +139,8 @@ Box standing(const Vector2d& centre, const Vector3d& size, double yaw_rad) {
 }
 
 Rectangle footprint(const Box& box) {
-  const double c = std::abs(std::cos(box.yaw_rad)), s = std::abs(std::sin(box.yaw_rad));
+  const auto [sine, cosine] = elementary::sine_cosine(box.yaw_rad);
+  const double c = std::abs(cosine), s = std::abs(sine);
   const Vector2d half{c * box.half_m.x() + s * box.half_m.y(),
                       s * box.half_m.x() + c * box.half_m.y()};
   const Vector2d centre = box.centre_m.head<2>();

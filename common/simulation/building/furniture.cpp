@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "voxlist/geometry/elementary.h"
 #include "voxlist/simulation/random.h"
 
 namespace voxlist::simulation {
@@ -58,12 +59,12 @@ class Furnisher {
     top.half_m.z() = kTableTop / 2.0;
     top.centre_m.z() = kTableHeight - kTableTop / 2.0;
     std::vector<Box> boxes{top};
+    const auto [s, c] = elementary::sine_cosine(yaw);
     for (const double sx : {-1.0, 1.0})
       for (const double sy : {-1.0, 1.0}) {
         const double x = sx * (length / 2.0 - kTableOverhang);
         const double y = sy * (width / 2.0 - kTableOverhang);
-        const Vector2d leg{centre.x() + std::cos(yaw) * x - std::sin(yaw) * y,
-                           centre.y() + std::sin(yaw) * x + std::cos(yaw) * y};
+        const Vector2d leg{centre.x() + c * x - s * y, centre.y() + s * x + c * y};
         boxes.push_back(standing(leg, {kTableLeg, kTableLeg, kTableHeight - kTableTop}, yaw));
       }
     return boxes;

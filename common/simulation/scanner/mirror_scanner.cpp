@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "voxlist/geometry/elementary.h"
 #include "voxlist/simulation/random.h"
 
 namespace voxlist::simulation {
@@ -44,7 +45,8 @@ SimulatedBeam MirrorScanner::trace(double t_s, double beam_rad) const {
 
 SimulatedBeam MirrorScanner::trace(double t_s, double beam_rad, double psi_rad) const {
   const Vector3d base_to_laser{0.0, 0.0, config_.mount_height_m - config_.mirror.height_m};
-  const Vector3d out{0.0, std::cos(beam_rad), std::sin(beam_rad)};
+  const auto [sine, cosine] = elementary::sine_cosine(beam_rad);
+  const Vector3d out{0.0, cosine, sine};
   Vector3d origin = Vector3d::Zero();
 
   SimulatedBeam beam{Met::kNothing, false, kInfinity, 0.0, base_to_laser, out};

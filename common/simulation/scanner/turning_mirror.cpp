@@ -1,10 +1,12 @@
 #include "voxlist/simulation/scanner/turning_mirror.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
+
+#include "voxlist/geometry/elementary.h"
+#include "voxlist/geometry/pose.h"
 
 namespace voxlist::simulation {
 namespace {
@@ -15,7 +17,15 @@ constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Across the axis, at an angle from x towards z.
-Vector3d across(double angle_rad) { return {std::cos(angle_rad), 0.0, std::sin(angle_rad)}; }
+Vector3d across(double angle_rad) {
+  const auto [s, c] = elementary::sine_cosine(angle_rad);
+  return {c, 0.0, s};
+}
+
+double cotangent(double angle_rad) {
+  const auto [s, c] = elementary::sine_cosine(angle_rad);
+  return c / s;
+}
 
 struct Plane {
   Vector3d outward;
@@ -62,16 +72,15 @@ Inside inside_cylinder(const Vector3d& middle, double radius, const Vector3d& or
 
 TurningMirror::TurningMirror(const TurningMirrorConfig& config)
     : config_(config),
-      axis_((Eigen::AngleAxisd(config.axis_yaw_deg * kRadPerDeg, Vector3d::UnitZ()) *
-             Eigen::AngleAxisd(config.axis_roll_deg * kRadPerDeg, Vector3d::UnitX()))
-                .toRotationMatrix()) {}
+      axis_(rotation(config.axis_yaw_deg * kRadPerDeg, Vector3d::UnitZ()) *
+            rotation(config.axis_roll_deg * kRadPerDeg, Vector3d::UnitX())) {}
 
 std::optional<TurningMirror::Contact> TurningMirror::meet(const Vector3d& origin,
                                                           const Vector3d& direction,
                                                           double psi_rad) const {
   const Vector3d o = axis_.transpose() * (origin - config_.height_m * Vector3d::UnitZ());
   const Vector3d d = axis_.transpose() * direction;
-  const double plate = psi_rad + config_.flex_deg * kRadPerDeg * std::sin(psi_rad);
+  const double plate = psi_rad + config_.flex_deg * kRadPerDeg * elementary::sin(psi_rad);
   const Vector3d along_plate = across(plate + std::numbers::pi / 2.0);
   const std::array<Plane, 6> planes{
       {{across(plate + config_.phase_deg[0] * kRadPerDeg), config_.offset_m[0]},
@@ -98,8 +107,8 @@ std::optional<double> TurningMirror::arm_range_m(const Vector3d& origin, const V
   for (const ArmRod& arm : config_.arms) {
     const double hangs = psi_rad - arm.angle_deg * kRadPerDeg - std::numbers::pi / 2.0;
     const Vector3d middle = config_.arm_distance_m * across(hangs);
-    const double y0 = below_axis / std::tan(arm.beam_last_deg * kRadPerDeg);
-    const double y1 = below_axis / std::tan(arm.beam_first_deg * kRadPerDeg);
+    const double y0 = below_axis * cotangent(arm.beam_last_deg * kRadPerDeg);
+    const double y1 = below_axis * cotangent(arm.beam_first_deg * kRadPerDeg);
     const std::array<Plane, 2> ends{{{Vector3d::UnitY(), y1}, {-Vector3d::UnitY(), -y0}}};
     const Inside rod = inside_cylinder(middle, config_.arm_radius_m, o, d);
     const Inside span = inside(ends, o, d);

@@ -6,6 +6,8 @@
 #include <queue>
 #include <utility>
 
+#include "voxlist/geometry/elementary.h"
+
 namespace voxlist::simulation {
 namespace {
 
@@ -56,7 +58,7 @@ Path PathPlanner::path(const Vector2d& from, const Vector2d& to) const {
         if (next < 0) continue;
         const auto n = static_cast<std::size_t>(next);
         const double c =
-            cost[static_cast<std::size_t>(at)] + cell_m_ * std::hypot(dx, dy) * price_[n];
+            cost[static_cast<std::size_t>(at)] + cell_m_ * elementary::hypot(dx, dy) * price_[n];
         if (c >= cost[n]) continue;
         cost[n] = c;
         parent[n] = at;

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "voxlist/geometry/elementary.h"
 #include "voxlist/simulation/random.h"
 #include "voxlist/simulation/world/path_planner.h"
 
@@ -60,7 +61,7 @@ class Walker {
     const Vector2d before = at(along_m_);
     along_m_ += direction_ * distance_m;
     const Vector2d now = at(along_m_), way = now - before;
-    return {now.x(), now.y(), std::atan2(way.y(), way.x())};
+    return {now.x(), now.y(), elementary::atan2(way.y(), way.x())};
   }
 
  private:

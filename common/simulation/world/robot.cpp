@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "voxlist/geometry/elementary.h"
 #include "voxlist/simulation/random.h"
 
 namespace voxlist::simulation {
@@ -60,7 +61,7 @@ class Driver {
   void step() {
     advance_target();
     const Vector2d to_target = path_[target_] - position();
-    const double wanted_yaw = arrived() ? 0.0 : std::atan2(to_target.y(), to_target.x());
+    const double wanted_yaw = arrived() ? 0.0 : elementary::atan2(to_target.y(), to_target.x());
     const double error = wrap_angle(wanted_yaw - pose_.yaw_rad);
     const double facing = std::max(0.0, 1.0 - std::abs(error) / kTurnInPlace);
     const double left = to_target.norm() + left_m_[target_];
@@ -73,7 +74,8 @@ class Driver {
     turn_ = ramp(turn_, std::clamp(kTurnGain * error, -turn_max, turn_max),
                  config_.turn_acceleration_max_dps2 * kRadPerDeg * dt);
     const double middle = pose_.yaw_rad + turn_ * dt / 2.0;
-    pose_ = {pose_.x_m + speed_ * dt * std::cos(middle), pose_.y_m + speed_ * dt * std::sin(middle),
+    const auto [s, c] = elementary::sine_cosine(middle);
+    pose_ = {pose_.x_m + speed_ * dt * c, pose_.y_m + speed_ * dt * s,
              wrap_angle(pose_.yaw_rad + turn_ * dt)};
   }
 
@@ -104,7 +106,7 @@ Trajectory wheel_odometry(const Trajectory& truth, const OdometryConfig& config,
   for (std::size_t i = 0; i < samples; ++i) {
     const double t = static_cast<double>(i) * period;
     const Pose2 step = truth.at(t).inverse() * truth.at(t + period);
-    const double root = std::sqrt(std::hypot(step.x_m, step.y_m));
+    const double root = std::sqrt(elementary::hypot(step.x_m, step.y_m));
     const double x = distance_scale * step.x_m + config.distance_noise_m * root * random.normal();
     const double yaw =
         turn_scale * step.yaw_rad + config.heading_noise_deg * kRadPerDeg * root * random.normal();
