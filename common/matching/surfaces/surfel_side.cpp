@@ -8,7 +8,8 @@ namespace voxlist::matching {
 namespace {
 
 // Rays are looked for from this far off a surface (m), three voxels: nearer ones may be noise of
-// the surface itself.
+// the surface itself. With 0.02, up to 5 % of the scans of a changed floor are not found
+// (bench_tracking 40 1).
 constexpr double kFirst_m = 0.06;
 // From there on rays are looked for in so many steps (m), to 0.16 m: about the thickness of a wall
 // and two cells of what rays passed. Farther, the rays of the next room would count.
