@@ -2,16 +2,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <voxlist/mirror_state_t.hpp>
 #include <voxlist/planar_lidar_t.hpp>
 
 #include "voxlist/bus/convert.h"
+#include "voxlist/geometry/angle.h"
 
 namespace voxlist::bus {
 namespace {
-
-constexpr double kTurn_rad = 2.0 * std::numbers::pi;
 
 // A mirror that turns faster than this (rad/s, 160 turns a second) is no mirror: the message is
 // wrong.

@@ -2,8 +2,8 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <numbers>
 
+#include "voxlist/geometry/angle.h"
 #include "voxlist/scanner/sweep/mirror_model.h"
 #include "voxlist/scanner/sweep/scanner_geometry.h"
 
@@ -41,8 +41,6 @@ struct ParameterInfo {
   /// What makes it visible to the laser.
   const char* advice;
 };
-
-inline constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 
 // The limits: what moves a point at 6 m by less than a centimetre.
 inline constexpr std::array<ParameterInfo, kParameters> kParameterInfos{{

@@ -2,9 +2,9 @@
 
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 #include <span>
 
+#include "voxlist/geometry/angle.h"
 #include "voxlist/geometry/pose.h"
 
 namespace voxlist::calibration {
@@ -14,7 +14,7 @@ namespace {
 // one's line by more than this (rad), and at another rate by more than this share: the motor was
 // given another speed, or slipped.
 constexpr std::int64_t kMaxGap_us = 500'000;
-constexpr double kMaxJump_rad = 2.0 * std::numbers::pi / 180.0;
+constexpr double kMaxJump_rad = 2.0 * kRadPerDeg;
 constexpr double kMaxRateChange = 0.01;
 
 // The end of a stretch that is left out (us): mirror_monitor tells a stall or slip up to a second

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numbers>
 #include <utility>
 
+#include "voxlist/geometry/angle.h"
 #include "voxlist/geometry/elementary.h"
 
 namespace voxlist::planning {
@@ -49,7 +49,7 @@ CellCounts supported(const CellCounts& counts, int min_points) {
 }
 
 std::size_t sector_of(const Eigen::Vector3f& p, int sectors) {
-  const double turns = elementary::atan2(p.y(), p.x()) / (2.0 * std::numbers::pi);
+  const double turns = elementary::atan2(p.y(), p.x()) / kTurn_rad;
   const auto sector = static_cast<int>(std::lround(turns * sectors));
   return static_cast<std::size_t>((sector + sectors) % sectors);
 }
@@ -64,7 +64,7 @@ ObstacleScan nearest_obstacles(const Cloud& cloud_base, const ObstacleConfig& co
 
   ObstacleScan scan;
   scan.utime_us = cloud_base.utime_us;
-  scan.step_rad = 2.0 * std::numbers::pi / config.sectors;
+  scan.step_rad = kTurn_rad / config.sectors;
   scan.ranges_m.assign(static_cast<std::size_t>(config.sectors),
                        std::numeric_limits<float>::infinity());
   for (const Eigen::Vector3f& p : points) {

@@ -1,14 +1,12 @@
 #include "services/mirror_monitor/mirror_monitor_config.h"
 
-#include <numbers>
 #include <stdexcept>
 
 #include "services/mirror_monitor/open_edge_source.h"
+#include "voxlist/geometry/angle.h"
 
 namespace voxlist::services {
 namespace {
-
-constexpr double kDegree_rad = std::numbers::pi / 180.0;
 
 // The least that an arm may block (degrees): ArmDetector leaves two beams at each end, and needs
 // three that come or leave.
@@ -30,7 +28,7 @@ scanner::MirrorClockConfig mirror_clock_config(const MirrorMonitorConfig& config
       throw std::invalid_argument(
           "an arm must block 8 deg of beams or more: see arm_last_beam_deg");
     result.arms.push_back(
-        {config.arm_angle_deg[i] * kDegree_rad, first_deg * kDegree_rad, last_deg * kDegree_rad});
+        {config.arm_angle_deg[i] * kRadPerDeg, first_deg * kRadPerDeg, last_deg * kRadPerDeg});
   }
   result.arm_height_max_m = config.arm_height_max_m;
   result.steps_per_revolution = config.steps_per_revolution;

@@ -86,10 +86,9 @@ struct Traced {
 
 Traced trace(const scanner::ScannerGeometry& g, double psi_rad, double beam_rad,
              double half_width_m) {
-  const Eigen::Matrix3d tilt =
-      (Eigen::AngleAxisd(g.axis_yaw_deg * calibration::kRadPerDeg, Vector3d::UnitZ()) *
-       Eigen::AngleAxisd(g.axis_roll_deg * calibration::kRadPerDeg, Vector3d::UnitX()))
-          .toRotationMatrix();
+  const Eigen::Matrix3d tilt = (Eigen::AngleAxisd(g.axis_yaw_deg * kRadPerDeg, Vector3d::UnitZ()) *
+                                Eigen::AngleAxisd(g.axis_roll_deg * kRadPerDeg, Vector3d::UnitX()))
+                                   .toRotationMatrix();
   const Vector3d middle(0.0, 0.0, g.mirror_height_m);
   const Vector3d d(0.0, std::cos(beam_rad), std::sin(beam_rad));
   for (const int side : {0, 1}) {
@@ -97,9 +96,9 @@ Traced trace(const scanner::ScannerGeometry& g, double psi_rad, double beam_rad,
     const double e = side == 0 ? g.mirror_offset_0_m : g.mirror_offset_1_m;
     // The plate lies in its own frame with the side's normal along x, its axis along y.
     const Eigen::Matrix3d turned =
-        tilt * Eigen::AngleAxisd(-(psi_rad + phase_deg * calibration::kRadPerDeg) - side * kPi,
-                                 Vector3d::UnitY())
-                   .toRotationMatrix();
+        tilt *
+        Eigen::AngleAxisd(-(psi_rad + phase_deg * kRadPerDeg) - side * kPi, Vector3d::UnitY())
+            .toRotationMatrix();
     const Vector3d from_plate = turned.transpose() * -middle, d_plate = turned.transpose() * d;
     if (d_plate.x() >= 0.0) continue;
     const double path_m = (e - from_plate.x()) / d_plate.x();
@@ -200,8 +199,7 @@ calibration::CalibrationInput record(const TestRoom& room, const RecordingOption
       const double t_s = static_cast<double>(line.utime_us) * 1e-6 +
                          beam_delay_us(line, beam) * 1e-6 - truth.latency_ms * 1e-3;
       const Traced ray =
-          trace(truth, rate * t_s, static_cast<double>(beam) * calibration::kRadPerDeg,
-                kPlateHalfWidth_m);
+          trace(truth, rate * t_s, static_cast<double>(beam) * kRadPerDeg, kPlateHalfWidth_m);
       if (options.single_sided && ray.side == 1) continue;
       const double beyond_m =
           caster.range_m(T_map_laser * ray.from, T_map_laser.linear() * ray.to, t_s);
@@ -225,9 +223,8 @@ SystematicError systematic_error(const scanner::ScannerGeometry& found,
   int count = 0;
   for (int psi_deg = 0; psi_deg < 360; psi_deg += 3)
     for (int beam_deg = 25; beam_deg <= 155; beam_deg += 5) {
-      const double psi = psi_deg * calibration::kRadPerDeg,
-                   beam = beam_deg * calibration::kRadPerDeg;
-      if (std::abs(std::sin(psi)) < std::sin(kBlind_deg * calibration::kRadPerDeg)) continue;
+      const double psi = psi_deg * kRadPerDeg, beam = beam_deg * kRadPerDeg;
+      if (std::abs(std::sin(psi)) < std::sin(kBlind_deg * kRadPerDeg)) continue;
       const Traced is = trace(truth, psi - rate * truth.latency_ms * 1e-3, beam, 1.0);
       const auto said = model.reflect(psi - rate * found.latency_ms * 1e-3, beam);
       const Vector3d point = truth.T_base_laser() * Vector3d(is.from + kFar_m * is.to);

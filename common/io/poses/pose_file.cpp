@@ -4,15 +4,14 @@
 
 #include <cctype>
 #include <cmath>
-#include <numbers>
 #include <set>
 
+#include "voxlist/geometry/angle.h"
 #include "voxlist/io/poses/csv_table.h"
 
 namespace voxlist::io {
 namespace {
 
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 // 9e15 us is the year 2255: what is beyond is a wrong unit. Doubles hold all integers up to there.
 constexpr double kMaxTimeUs = 9e15;
 

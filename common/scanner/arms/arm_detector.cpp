@@ -4,13 +4,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "voxlist/geometry/angle.h"
 #include "voxlist/geometry/elementary.h"
 
 namespace voxlist::scanner {
 namespace {
 
 // An arm's outermost beams (rad) may pass its end, or see only half of it: two beams of 1 deg.
-constexpr double kEndMargin_rad = 2.0 * std::numbers::pi / 180.0;
+constexpr double kEndMargin_rad = 2.0 * kRadPerDeg;
 
 // Fewer beams than these at one end of a line are noise, not an arm that comes or leaves. An arm
 // comes or leaves in a line only if that explains so many more of its beams than an arm that stays.

@@ -1,14 +1,12 @@
 #include "voxlist/scanner/arms/arm_rate.h"
 
 #include <cmath>
-#include <numbers>
 
+#include "voxlist/geometry/angle.h"
 #include "voxlist/geometry/pose.h"
 
 namespace voxlist::scanner {
 namespace {
-
-constexpr double kTurn_rad = 2.0 * std::numbers::pi;
 
 // The mirror turns evenly when two turns of one arm differ by no more than this share; a gap
 // between arms fits the settings to within this angle (rad, 4.6 deg). Passages are known to two

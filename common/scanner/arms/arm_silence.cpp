@@ -1,15 +1,13 @@
 #include "voxlist/scanner/arms/arm_silence.h"
 
 #include <cmath>
-#include <numbers>
 
+#include "voxlist/geometry/angle.h"
 #include "voxlist/geometry/pose.h"
 #include "voxlist/geometry/seconds_between.h"
 
 namespace voxlist::scanner {
 namespace {
-
-constexpr double kTurn_rad = 2.0 * std::numbers::pi;
 
 // An arm is missing after so many turns without it: one passage may be lost in a hole. All arms are
 // silent after so many gaps between two arms. Fewer would tell a mirror that slows down a little;

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
+#include "voxlist/geometry/angle.h"
 #include "voxlist/scanner/lms200/lms200_commands.h"
 
 namespace voxlist::scanner {
@@ -25,7 +25,6 @@ constexpr unsigned kCountMask = 0x07FF, kPartialShift = 11, kPartialMask = 0x3,
 constexpr unsigned kBelowInvalid = 0, kBelowDazzled = 1, kBelowOverMaximum = 8;
 constexpr unsigned kDazzleBit = 0x8000;  // of measuring mode 0
 
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 constexpr std::size_t kCountBytes = 2, kIndexBytes = 2, kStatusBytes = 1;
 
 unsigned range_bits(int measuring_mode) {

@@ -1,8 +1,8 @@
 #include "voxlist/scanner/mirror/mirror_answer.h"
 
 #include <cmath>
-#include <numbers>
 
+#include "voxlist/geometry/angle.h"
 #include "voxlist/scanner/mirror/mirror_diagnosis.h"
 
 namespace voxlist::scanner {
@@ -11,7 +11,6 @@ namespace {
 using State = MirrorState::State;
 
 double wrap_turn(double angle_rad) {
-  constexpr double kTurn_rad = 2.0 * std::numbers::pi;
   const double a = std::fmod(angle_rad, kTurn_rad);
   return a < 0.0 ? a + kTurn_rad : a;
 }

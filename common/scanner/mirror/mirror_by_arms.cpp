@@ -1,8 +1,8 @@
 #include "voxlist/scanner/mirror/mirror_by_arms.h"
 
 #include <cmath>
-#include <numbers>
 
+#include "voxlist/geometry/angle.h"
 #include "voxlist/geometry/elementary.h"
 #include "voxlist/geometry/seconds_between.h"
 #include "voxlist/scanner/arms/passage_angles.h"
@@ -85,7 +85,7 @@ double MirrorByArms::angle_rad(std::int64_t utime_us) const {
 // Without a clock nobody knows on which stop of its stair the mirror stands.
 double MirrorByArms::residual_rad() const {
   VOXLIST_CHECK(locked(), "the residual is asked for before passages fit each other");
-  const double step_rad = 2.0 * std::numbers::pi / config_.steps_per_revolution;
+  const double step_rad = kTurn_rad / config_.steps_per_revolution;
   const double stair_rad = config_.staircase ? step_rad / std::sqrt(12.0) : 0.0;
   return elementary::hypot(track_->residual_rad(), stair_rad);
 }

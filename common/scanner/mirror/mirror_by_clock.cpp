@@ -1,8 +1,8 @@
 #include "voxlist/scanner/mirror/mirror_by_clock.h"
 
 #include <cmath>
-#include <numbers>
 
+#include "voxlist/geometry/angle.h"
 #include "voxlist/geometry/seconds_between.h"
 #include "voxlist/scanner/arms/passage_angles.h"
 #include "voxlist/system/check.h"
@@ -17,7 +17,7 @@ constexpr std::size_t kGrownPassages = 16;
 
 MirrorByClock::MirrorByClock(const MirrorClockConfig& config)
     : config_(config),
-      step_rad_(2.0 * std::numbers::pi / config.steps_per_revolution),
+      step_rad_(kTurn_rad / config.steps_per_revolution),
       direction_(config.direction()) {}
 
 void MirrorByClock::start(std::int64_t origin_us) {

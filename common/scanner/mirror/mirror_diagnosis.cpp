@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "voxlist/geometry/angle.h"
 #include "voxlist/geometry/seconds_between.h"
 
 namespace voxlist::scanner {
@@ -20,7 +21,7 @@ constexpr double kNeverTurned_us = 3e6;
 
 double degrees(double angle_rad) { return angle_rad * 180.0 / std::numbers::pi; }
 
-double turn_s(double rate_radps) { return 2.0 * std::numbers::pi / std::abs(rate_radps); }
+double turn_s(double rate_radps) { return kTurn_rad / std::abs(rate_radps); }
 
 std::string no_arm_sentence(const MirrorEvidence& evidence) {
   return fmt::format("no arm seen for {:.1f} s", *evidence.silence.silent_s(evidence.now_us));

@@ -5,13 +5,11 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "voxlist/geometry/angle.h"
 #include "voxlist/scanner/sweep/cloud_assembler_config.h"
 
 namespace voxlist::scanner {
 namespace {
-
-constexpr double kRadians = std::numbers::pi / 180.0;
-constexpr double kTurn_rad = 2.0 * std::numbers::pi;
 
 // A beam at the very first or last angle belongs to the mirror, however its angle was rounded
 // (rad).
@@ -22,8 +20,8 @@ constexpr double kAngleSlack_rad = 1e-4;
 BeamGeometry::BeamGeometry(const CloudAssemblerConfig& config)
     : model_(config.geometry.model()),
       T_base_laser_(config.geometry.T_base_laser()),
-      first_rad_(config.beam_first_deg * kRadians - kAngleSlack_rad),
-      last_rad_(config.beam_last_deg * kRadians + kAngleSlack_rad),
+      first_rad_(config.beam_first_deg * kRadPerDeg - kAngleSlack_rad),
+      last_rad_(config.beam_last_deg * kRadPerDeg + kAngleSlack_rad),
       range_min_m_(config.range_min_m),
       range_max_m_(config.range_max_m) {
   if (first_rad_ >= last_rad_)
@@ -35,7 +33,7 @@ BeamGeometry::BeamGeometry(const CloudAssemblerConfig& config)
   for (std::size_t i = 0; i < blind.size(); i += 2) {
     if (blind[i] >= blind[i + 1])
       throw std::invalid_argument("blind_phi_deg: each from must be below its to");
-    blind_.push_back({blind[i] * kRadians, (blind[i + 1] - blind[i]) * kRadians});
+    blind_.push_back({blind[i] * kRadPerDeg, (blind[i + 1] - blind[i]) * kRadPerDeg});
   }
   const auto& boxes = config.robot_boxes_m;
   if (boxes.size() % 6 != 0)

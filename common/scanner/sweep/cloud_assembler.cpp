@@ -2,18 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 #include <utility>
 
+#include "voxlist/geometry/angle.h"
+
 namespace voxlist::scanner {
 namespace {
-
-constexpr double kRadians = std::numbers::pi / 180.0;
-
-// A line that is older than the one before by more than this (us) is not late: time started anew,
-// as when a log is played again. Lines that overtake each other on the bus are milliseconds apart.
-constexpr std::int64_t kTimeStartsAnew_us = 1'000'000;
 
 // A sweep with more points is thrown away. One of 75 lines has 9,825 beams on the mirror, so this
 // is a mirror that needs 100 s or more for half a turn; a cloud of a million points has 24 MB.
@@ -39,7 +34,7 @@ CloudAssembler::CloudAssembler(const CloudAssemblerConfig& config)
       odometry_reach_us_(to_us(config.odometry_extrapolation_ms)),
       beams_(config),
       motion_(config.staircase, to_us(config.mirror_extrapolation_ms)),
-      divider_(config.sweep_boundary_deg * kRadians, 1.0 / config.lines_per_s),
+      divider_(config.sweep_boundary_deg * kRadPerDeg, 1.0 / config.lines_per_s),
       sweep_{{config.use_odometry ? &odometry_ : nullptr, odometry_reach_us_}},
       slice_{{config.use_odometry ? &odometry_ : nullptr, odometry_reach_us_}} {}
 

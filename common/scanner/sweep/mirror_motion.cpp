@@ -9,10 +9,6 @@
 namespace voxlist::scanner {
 namespace {
 
-// A state that is older than the one before by more than this (us) means that time started anew, as
-// when a log is played again.
-constexpr std::int64_t kTimeStartsAnew_us = 1'000'000;
-
 // States that are kept: 2.7 s at the rate of the laser's lines, far more than a line may wait.
 constexpr std::size_t kCapacity = 200;
 

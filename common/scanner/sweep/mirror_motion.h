@@ -7,6 +7,11 @@
 
 namespace voxlist::scanner {
 
+/// A line or a state that is older than the one before by more than this (us) is not late: time
+/// started anew, as when a log is played again. Messages that overtake each other on the bus are
+/// milliseconds apart.
+inline constexpr std::int64_t kTimeStartsAnew_us = 1'000'000;
+
 /// What is known of the mirror at a time.
 struct MirrorAt {
   enum class Known {

@@ -1,14 +1,10 @@
 #include "voxlist/scanner/sweep/sweep_divider.h"
 
 #include <cmath>
-#include <numbers>
+
+#include "voxlist/geometry/angle.h"
 
 namespace voxlist::scanner {
-namespace {
-
-constexpr double kTurn_rad = 2.0 * std::numbers::pi;
-
-}  // namespace
 
 SweepDivider::Place SweepDivider::next(double phi_rad, double rate_radps) {
   const std::int64_t forward = rate_radps < 0.0 ? -1 : 1;

@@ -3,13 +3,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "voxlist/geometry/angle.h"
 #include "voxlist/simulation/random.h"
 
 namespace voxlist::simulation {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kRadPerDeg = kPi / 180.0;
 
 bool blind(double phi_rad, const IdealSweepConfig& config) {
   const double from_up = std::abs(wrap_angle(phi_rad));

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "voxlist/geometry/angle.h"
 #include "voxlist/geometry/elementary.h"
 #include "voxlist/geometry/pose.h"
 
@@ -13,7 +14,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Across the axis, at an angle from x towards z.

@@ -16,7 +16,7 @@ struct ArmRod {
 };
 
 /// A two-sided mirror that turns about an axis over a 2D laser, as it truly is: a rectangular plate
-/// with thickness, and arms. In the laser's frame (common/scanner/laser_line.h: fan in the y-z
+/// with thickness, and arms. In the laser's frame (common/geometry/laser_line.h: fan in the y-z
 /// plane, z up along beam 90 deg) the axis runs through (0, 0, height_m), along y but for the
 /// tilts.
 struct TurningMirrorConfig {

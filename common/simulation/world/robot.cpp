@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "voxlist/geometry/angle.h"
 #include "voxlist/geometry/elementary.h"
 #include "voxlist/simulation/random.h"
 
@@ -13,12 +13,14 @@ namespace {
 using Eigen::Vector2d;
 using Path = std::vector<Vector2d>;
 
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
-constexpr double kArrived = 0.02;                   // m
-constexpr double kAligned = 0.01;                   // rad
-constexpr double kTurnGain = 2.0;                   // turn rate for a heading error, 1/s
-constexpr double kTurnInPlace = 60.0 * kRadPerDeg;  // heading error that stops the robot
-constexpr double kLongest = 3600.0;                 // s: no tour takes longer; bounds the loop
+// The robot has arrived within this (m) of its path's end, and is turned within this (rad).
+constexpr double kArrived_m = 0.02, kAligned_rad = 0.01;
+
+// Turn rate for a heading error (1/s), and the error (rad) above which the robot stops to turn.
+constexpr double kTurnGain = 2.0, kTurnInPlace_rad = 60.0 * kRadPerDeg;
+
+// No tour takes longer (s): bounds the loop.
+constexpr double kLongest_s = 3600.0;
 
 // A speed one step nearer to the wanted one, no faster than the acceleration allows.
 double ramp(double now, double wanted, double step) {
@@ -37,7 +39,7 @@ class Driver {
   std::vector<Pose2> run() {
     std::vector<Pose2> poses(1 + static_cast<std::size_t>(config_.wait_s / config_.period_s),
                              pose_);
-    const auto most = static_cast<std::size_t>(kLongest / config_.period_s);
+    const auto most = static_cast<std::size_t>(kLongest_s / config_.period_s);
     while (poses.size() < most && !(arrived() && aligned())) {
       step();
       poses.push_back(pose_);
@@ -48,9 +50,9 @@ class Driver {
  private:
   Vector2d position() const { return {pose_.x_m, pose_.y_m}; }
   bool arrived() const {
-    return (position() - path_.back()).norm() < kArrived && target_ + 1 == path_.size();
+    return (position() - path_.back()).norm() < kArrived_m && target_ + 1 == path_.size();
   }
-  bool aligned() const { return std::abs(pose_.yaw_rad) < kAligned; }
+  bool aligned() const { return std::abs(pose_.yaw_rad) < kAligned_rad; }
 
   // The farthest point of the path that is still within the lookahead, never going back.
   void advance_target() {
@@ -63,7 +65,7 @@ class Driver {
     const Vector2d to_target = path_[target_] - position();
     const double wanted_yaw = arrived() ? 0.0 : elementary::atan2(to_target.y(), to_target.x());
     const double error = wrap_angle(wanted_yaw - pose_.yaw_rad);
-    const double facing = std::max(0.0, 1.0 - std::abs(error) / kTurnInPlace);
+    const double facing = std::max(0.0, 1.0 - std::abs(error) / kTurnInPlace_rad);
     const double left = to_target.norm() + left_m_[target_];
     const double stoppable = std::sqrt(2.0 * config_.acceleration_max_mps2 * left);
     const double wanted_speed =

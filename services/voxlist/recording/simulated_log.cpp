@@ -1,20 +1,19 @@
 #include "services/voxlist/recording/simulated_log.h"
 
 #include <limits>
-#include <numbers>
 #include <voxlist/mirror_state_t.hpp>
 #include <voxlist/planar_lidar_t.hpp>
 #include <voxlist/pointcloud_t.hpp>
 #include <voxlist/pose_t.hpp>
 
 #include "voxlist/bus/convert.h"
+#include "voxlist/geometry/angle.h"
 
 namespace voxlist::desk {
 namespace {
 
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
-
-// From a line's first beam until a driver has it: half a turn, and 732 bytes at 500 kbaud.
+// Time from a line's first beam until a driver has it (us): half a turn of the laser's mirror, and
+// 732 bytes at 500 kbaud.
 constexpr std::int64_t kTravel_us = 6'667 + 14'640;
 
 scanner::MirrorClockConfig clock_of(const simulation::MirrorScannerConfig& scanner) {

@@ -35,9 +35,8 @@ simulation::Building room_of_figure_8() {
 scanner::MirrorClock clock_of(const simulation::MirrorScannerConfig& config) {
   scanner::MirrorClockConfig clock;
   for (const simulation::ArmRod& arm : config.mirror.arms)
-    clock.arms.push_back({arm.angle_deg * calibration::kRadPerDeg,
-                          arm.beam_first_deg * calibration::kRadPerDeg,
-                          arm.beam_last_deg * calibration::kRadPerDeg});
+    clock.arms.push_back({arm.angle_deg * kRadPerDeg, arm.beam_first_deg * kRadPerDeg,
+                          arm.beam_last_deg * kRadPerDeg});
   return scanner::MirrorClock(clock);
 }
 
