@@ -20,9 +20,6 @@ namespace {
 constexpr int kEveryCapacity = 512;
 constexpr int kLatestCapacity = 64;
 
-// Longest channel name that LCM sends.
-constexpr std::size_t kMaxChannelName = 63;
-
 constexpr std::string_view kFileScheme = "file://";
 
 bool is_plain(const std::string& channel) {

@@ -19,7 +19,6 @@ constexpr std::int64_t kSyncBytes = kSync.size();
 // An event's header: sync word, event number, timestamp, length of the channel's name, length of
 // the data.
 constexpr std::size_t kHeaderBytes = 4 + 8 + 8 + 4 + 4;
-constexpr std::int64_t kMaxChannelName = 63;
 // Bytes that are read at once while looking for the next event after damage. Damage is mostly
 // short.
 constexpr std::int64_t kBlockBytes = 4096;
@@ -96,7 +95,8 @@ std::optional<EventLogReader::Header> EventLogReader::read_header(std::int64_t p
   const Header header{
       static_cast<std::int64_t>(field(4, 8)), static_cast<std::int64_t>(field(12, 8)),
       static_cast<std::int64_t>(field(20, 4)), static_cast<std::int64_t>(field(24, 4))};
-  const bool sane = header.channel_length >= 1 && header.channel_length <= kMaxChannelName &&
+  const bool sane = header.channel_length >= 1 &&
+                    header.channel_length <= static_cast<std::int64_t>(kMaxChannelName) &&
                     header.data_length <= kMaxMessageBytes;
   const std::int64_t body = position + static_cast<std::int64_t>(kHeaderBytes);
   const std::int64_t end = body + header.channel_length + header.data_length;

@@ -17,6 +17,9 @@ using Bytes = std::span<const std::uint8_t>;
 /// forged length could make a service allocate more than a robot has.
 inline constexpr std::int64_t kMaxMessageBytes = 64'000'000;
 
+/// Longest name of a channel that LCM sends, with prefix.
+inline constexpr std::size_t kMaxChannelName = 63;
+
 /// Most channels that a cloud may have: they cost memory even without points, and real clouds have
 /// a handful.
 inline constexpr std::int64_t kMaxCloudChannels = 64;

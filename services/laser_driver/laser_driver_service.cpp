@@ -14,7 +14,8 @@
 namespace voxlist::services {
 namespace {
 
-// More beams than this are dazzled by something that a person can turn away.
+// A larger share of dazzled beams than this, more than three of 181, comes from something that a
+// person can turn away: HEALTH warns.
 constexpr double kDazzled = 0.02;
 
 std::unique_ptr<serial::Port> open_serial(const std::string& path) {

@@ -16,6 +16,8 @@
 namespace voxlist::services {
 namespace {
 
+// A missing map is asked for this often at most (us): an answer takes time, and a whole map is 300
+// MB at most.
 constexpr std::int64_t kRequestPeriod_us = 1'000'000;
 
 localisation_t to_message(const matching::Localisation& result) {

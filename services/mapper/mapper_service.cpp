@@ -21,13 +21,18 @@
 namespace voxlist::services {
 namespace {
 
-// Clouds that may wait for their localisation.
+// Clouds that may wait for their localisation: more than the localiser lets wait. Beyond that the
+// oldest is forgotten, and a keyframe is missed.
 constexpr std::size_t kRecentClouds = 16;
 
-// Between two saves on request: the map's picture takes a while, and anyone may ask.
+// Bytes of a point on its way in KEYFRAME: three floats, and three of its ray's origin.
+constexpr std::size_t kPointBytes = 24;
+
+// Time from one save on request to the next (us): the map's picture takes a while, and anyone may
+// ask.
 constexpr std::int64_t kSavePause_us = 1'000'000;
 
-// An id that no other map has: when it was begun.
+// An id that no other map has: the time when it was begun.
 std::int64_t new_map_id() {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   return std::chrono::duration_cast<std::chrono::microseconds>(now).count();
@@ -156,7 +161,7 @@ void MapperService::send_change(std::int64_t base_version) {
 void MapperService::send_keyframes(std::size_t first) {
   for (std::size_t i = first; i < builder_.keyframes().size(); ++i) {
     const mapping::Keyframe& keyframe = builder_.keyframes()[i];
-    const std::size_t bytes = 24 * keyframe.cloud.points.size();
+    const std::size_t bytes = kPointBytes * keyframe.cloud.points.size();
     const bool queued = sender_.push(bytes, [this, i] {
       const mapping::Keyframe& k = builder_.keyframes()[i];
       bus_.publish(bus::kKeyframe,

@@ -18,7 +18,11 @@ namespace voxlist::services {
 namespace {
 
 constexpr std::int64_t kSecond_us = 1'000'000;
+
+// Missing keyframes are asked for this often at most: an answer takes time.
 constexpr std::int64_t kAskPeriod_us = kSecond_us;
+
+// OCTOMAP goes out this often at most: a large one takes a while to write and to read.
 constexpr std::int64_t kPublishPeriod_us = kSecond_us;
 
 }  // namespace

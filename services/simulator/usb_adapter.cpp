@@ -5,6 +5,7 @@
 namespace voxlist::services {
 namespace {
 
+// Data in one packet of an FTDI adapter: 64 bytes, two of which are its own status.
 constexpr std::size_t kPacketBytes = 62;
 
 }  // namespace

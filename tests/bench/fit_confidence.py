@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Fits the coefficients of common/matching/confidence.cpp to what bench_confidence wrote.
+"""Fits the coefficients of common/matching/localisation/confidence.cpp to what bench_confidence wrote.
 
 Usage: bench_confidence 40 0 1 5 scans.csv; fit_confidence.py scans.csv...
 

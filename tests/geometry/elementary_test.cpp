@@ -32,7 +32,7 @@ class Arguments {
     return low + (high - low) * static_cast<double>(bits() >> 11) * 0x1p-53;
   }
 
-  // Of any size from 2^low to 2^high.
+  // A number of any size from 2^low to 2^high.
   double of_size(int low, int high) {
     const auto power = low + static_cast<int>(bits() % static_cast<std::uint64_t>(high - low));
     return std::ldexp(uniform(1.0, 2.0), power) * (bits() % 2 == 0 ? 1.0 : -1.0);

@@ -5,6 +5,7 @@
 namespace voxlist::io {
 namespace {
 
+// Largest file that is read: 2 GiB, 80 million points. It is read as a whole, into memory.
 constexpr std::uintmax_t kMaxFileBytes = std::uintmax_t{1} << 31;
 
 }  // namespace

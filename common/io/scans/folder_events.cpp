@@ -7,7 +7,7 @@
 namespace voxlist::io {
 namespace {
 
-// Odometry farther from the scans than this is about something else.
+// Odometry farther from the scans than this (us) is about something else.
 constexpr std::int64_t kMargin_us = 1'000'000;
 
 std::vector<FolderEvent> odometry_of(const ScanFolder& folder) {

@@ -18,7 +18,8 @@ namespace fs = std::filesystem;
 using Files = std::vector<fs::path>;
 using Rows = std::vector<std::optional<std::size_t>>;
 
-constexpr std::int64_t kDefaultPeriodUs = 1'000'000;
+// Time between scans of which no table says when they were taken (us).
+constexpr std::int64_t kDefaultPeriod_us = 1'000'000;
 
 std::string lower(std::string text) {
   for (char& c : text) {
@@ -129,7 +130,7 @@ std::int64_t time_of(std::int64_t scan, const std::map<std::int64_t, std::int64_
   const auto after = known.lower_bound(scan);
   if (after == known.end() || after == known.begin()) {
     const auto& [nearest, time] = after == known.end() ? *known.rbegin() : *after;
-    return time + (scan - nearest) * kDefaultPeriodUs;
+    return time + (scan - nearest) * kDefaultPeriod_us;
   }
   const auto before = std::prev(after);
   const std::int64_t step = (after->second - before->second) / (after->first - before->first);
@@ -140,7 +141,7 @@ std::int64_t time_of(std::int64_t scan, const std::map<std::int64_t, std::int64_
 
 ScanFolder::ScanFolder(const fs::path& folder) : files_(find_scans(folder)), rows_(files_.size()) {
   for (const std::int64_t position : positions(files_.size())) {
-    utimes_us_.push_back(position * kDefaultPeriodUs);
+    utimes_us_.push_back(position * kDefaultPeriod_us);
   }
   if (fs::exists(folder / "poses.csv")) {
     read_poses(folder / "poses.csv");

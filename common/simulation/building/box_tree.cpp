@@ -10,6 +10,7 @@
 namespace voxlist::simulation {
 namespace {
 
+// Boxes in a leaf: fewer make the tree deeper, more make each leaf slower. The answer is the same.
 constexpr std::size_t kLeafBoxes = 4;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 

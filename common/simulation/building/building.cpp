@@ -14,8 +14,9 @@
 namespace voxlist::simulation {
 namespace {
 
+// Least edge of a room, and least height: that of the doors. Metres.
 constexpr double kRoomMin = 2.4;
-constexpr double kHeightMin = 2.1;  // of the doors
+constexpr double kHeightMin = 2.1;
 
 // Streams of random numbers beside the seed's own, so that one thing more moves nothing else.
 enum Stream : std::uint64_t { kStairs = 101, kPipes = 102, kChanges = 103, kObjects = 104 };
@@ -30,7 +31,7 @@ void check(const BuildingConfig& config) {
     throw std::invalid_argument("building: rooms that are alike come in pairs, without stairs");
 }
 
-// Quick, and never more than the distance.
+// A lower bound of the distance that is quick to find.
 double least_distance_m(const Box& box, const Eigen::Vector2d& point) {
   return (box.centre_m.head<2>() - point).norm() - box.half_m.head<2>().norm();
 }

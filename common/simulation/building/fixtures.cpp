@@ -14,16 +14,19 @@ namespace {
 
 using Eigen::Vector2d;
 
+// A flight of stairs (metres), down to below the last step.
 constexpr int kSteps = 8;
 constexpr double kRise = 0.18;
 constexpr double kTread = 0.25;
 constexpr double kStairsWidth = 1.0;
 constexpr double kBottom = -(kSteps + 1) * kRise;
 
-constexpr double kPipe = 0.06;          // thickness
-constexpr double kFromCorner = 0.7;     // of a pipe's middle along each wall
-constexpr double kUnderCeiling = 0.25;  // of a pipe's middle
-constexpr double kBesideMiddle = 0.5;   // of the corridor
+// A pipe's thickness, and where its middle is: this far from the corner along each wall, or under
+// the ceiling and beside the middle of the corridor. Metres.
+constexpr double kPipe = 0.06;
+constexpr double kFromCorner = 0.7;
+constexpr double kUnderCeiling = 0.25;
+constexpr double kBesideMiddle = 0.5;
 
 // A flight of stairs: its hole, and whether it goes down towards greater x.
 struct Flight {
@@ -31,7 +34,7 @@ struct Flight {
   int down;  // +1 or -1
 };
 
-// Along a room's outer wall, from the side of the room's middle down into a corner.
+// Stairs along a room's outer wall, from the side of the room's middle down into a corner.
 Flight flight_in(const Room& room, int down) {
   const bool left = room.door.y() > 0.0;
   const double length = kSteps * kTread;

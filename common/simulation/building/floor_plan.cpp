@@ -13,7 +13,8 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kBehindStart = 1.0;  // from the origin to the corridor's end
+// Metres: from the origin to the corridor's end behind it, and doors as buildings have them.
+constexpr double kBehindStart = 1.0;
 constexpr double kDoorWidth = 1.0;
 constexpr double kDoorHeight = 2.1;
 constexpr double kDoorFromCorner = 0.8;
@@ -75,7 +76,8 @@ class Planner {
     return low_.x() + config_.length_m / count * (i + 1 + random_.uniform(-0.1, 0.1));
   }
 
-  // In rooms that are alike, where the first has it, seen from the corridor.
+  // The place of a room's door. In rooms that are alike it is where the first one has it, seen from
+  // the corridor.
   double door_between(double side, double x0, double x1) {
     if (config_.alike == 0 || plan_.rooms.empty())
       return random_.uniform(x0 + kDoorFromCorner, x1 - kDoorFromCorner);

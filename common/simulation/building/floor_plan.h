@@ -13,7 +13,7 @@ class Random;
 /// Thickness of walls, floor and ceiling, metres.
 inline constexpr double kWall_m = 0.12;
 
-/// Kept free of whatever stands on the floor, on both sides of every way, metres.
+/// Half the width of every way, which is kept free of whatever stands on the floor, metres.
 inline constexpr double kWayHalfWidth_m = 0.5;
 
 /// A building in the making: walls and what must stay free.

@@ -14,14 +14,17 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
+// A table as offices have it, metres.
 constexpr double kTableHeight = 0.74;
 constexpr double kTableTop = 0.04;
 constexpr double kTableOverhang = 0.15;
 constexpr double kTableLeg = 0.05;
 
-constexpr double kGone = 0.15;  // shares of the furniture when things change
+// When things have changed: shares of the furniture that is gone and that was moved, and the
+// probability that a region has one piece more.
+constexpr double kGone = 0.15;
 constexpr double kMoved = 0.25;
-constexpr double kNew = 0.5;  // probability of one more in a region
+constexpr double kNew = 0.5;
 
 class Furnisher {
  public:
@@ -74,7 +77,7 @@ class Furnisher {
     return if_it_fits(standing(point_in(region, 0.2), {0.3, 0.3, config_.height_m}), region);
   }
 
-  // Against one of the four walls.
+  // A piece that stands against one of the four walls.
   std::vector<Box> shelf(const Rectangle& region) {
     const std::uint64_t wall = random_.bits() % 4;
     const double length = random_.uniform(0.6, 1.8), depth = random_.uniform(0.25, 0.45);

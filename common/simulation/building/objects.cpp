@@ -9,6 +9,7 @@
 namespace voxlist::simulation {
 namespace {
 
+// Places that are tried for each object before a room counts as full.
 constexpr int kTries = 200;
 
 Box draw(const Room& room, Random& random) {

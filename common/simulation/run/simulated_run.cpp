@@ -12,7 +12,8 @@ namespace {
 using Scans = SimulationConfig::Scans;
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
-constexpr double kStanding = 60.0;  // s, when nothing else is said
+// How long a robot stands when nothing else is said: a minute, as calibration needs (s).
+constexpr double kStanding_s = 60.0;
 
 std::int64_t to_utime_us(double t_s) { return std::llround(t_s * 1e6); }
 
@@ -35,7 +36,7 @@ OdometryConfig scaled(OdometryConfig config, double errors) {
 
 double duration(const Trajectory& truth, const SimulationConfig& config) {
   if (config.duration_s > 0.0) return config.duration_s;
-  return truth.duration_s() > 0.0 ? truth.duration_s() : kStanding;
+  return truth.duration_s() > 0.0 ? truth.duration_s() : kStanding_s;
 }
 
 MirrorScannerConfig with_faults(const SimulationConfig& config) {

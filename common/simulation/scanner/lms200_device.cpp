@@ -14,9 +14,12 @@ namespace {
 
 using Configuration = scanner::Lms200Configuration;
 
+// How long the device takes (us). Real units: up to 60 ms for an answer, 3 s for a mode, 7 s for
+// the EEPROM.
 constexpr std::int64_t kAnswer_us = 1'000;
-constexpr std::int64_t kModeChange_us = 30'000;     // real units: up to 3 s
-constexpr std::int64_t kEepromWrite_us = 300'000;   // real units: up to 7 s
+constexpr std::int64_t kModeChange_us = 30'000;
+constexpr std::int64_t kEepromWrite_us = 300'000;
+
 constexpr std::size_t kStopThreshold = 2;           // in the configuration
 constexpr std::uint8_t kUsualStopThreshold = 0x46;  // as delivered
 constexpr std::uint8_t kPowerOnStatus = 0x13;       // as in SICK's quick manual

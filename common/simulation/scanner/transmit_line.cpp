@@ -7,7 +7,8 @@ namespace voxlist::simulation {
 namespace {
 
 constexpr double kBitsPerByte = 10.0;
-constexpr double kMostBytesForOne = 8.0;  // a slow sender's byte has only so many edges
+// Most bytes that a fast listener makes of one byte of a slow sender: it has only so many edges.
+constexpr double kMostBytesForOne = 8.0;
 
 std::uint8_t any_byte(Random& random) { return static_cast<std::uint8_t>(random.bits() & 0xFF); }
 

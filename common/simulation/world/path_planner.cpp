@@ -14,9 +14,12 @@ namespace {
 using Eigen::Vector2d;
 using Path = std::vector<Vector2d>;
 
-constexpr double kFloorThickness = 0.02;  // what a wheel rolls over
-constexpr double kComfort = 0.4;          // clearance beyond which more is not better
-constexpr double kTightCost = 3.0;        // price of a metre with no clearance to spare
+// A wheel rolls over what is lower than this (m).
+constexpr double kFloorThickness_m = 0.02;
+
+// Clearance beyond which more is not better (m), and the price of a metre with none to spare: so
+// ways prefer the middle of free space, but not at three times the length.
+constexpr double kComfort_m = 0.4, kTightCost = 3.0;
 
 }  // namespace
 
@@ -35,9 +38,9 @@ PathPlanner::PathPlanner(const Building& building, const TourConfig& config)
   const double needed = config.robot_radius_m + config.margin_m;
   for (int i = 0; i < nx_ * ny_; ++i) {
     const double spare =
-        building.clearance_m(point(i), kFloorThickness, config.robot_height_m) - needed;
+        building.clearance_m(point(i), kFloorThickness_m, config.robot_height_m) - needed;
     price_.push_back(spare < 0.0 ? std::numeric_limits<double>::infinity()
-                                 : 1.0 + kTightCost * std::max(0.0, 1.0 - spare / kComfort));
+                                 : 1.0 + kTightCost * std::max(0.0, 1.0 - spare / kComfort_m));
   }
 }
 

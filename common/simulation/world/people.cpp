@@ -16,12 +16,20 @@ namespace {
 using Eigen::Vector2d;
 using Path = std::vector<Vector2d>;
 
-constexpr double kPeriod = 0.1;     // s, of the motion's steps
-constexpr double kTurnRound = 1.0;  // m, from the robot
-constexpr double kNeverNearer = 0.55;
-constexpr int kTries = 50;  // for each person's way
-constexpr int kRoomsVisited = 3;
-constexpr TourConfig kRoom{0.25, 0.05, 1.8, 0.1};  // that a person needs
+// Steps of a person's motion (s).
+constexpr double kPeriod_s = 0.1;
+
+// A person turns round this far from the robot (m), and a way that leads nearer than the second is
+// not taken.
+constexpr double kTurnRound_m = 1.0, kNeverNearer_m = 0.55;
+
+// Ways that are tried for each person, and rooms that a way visits.
+constexpr int kTries = 50, kRoomsVisited = 3;
+
+// The room that a person needs.
+constexpr TourConfig kRoom{0.25, 0.05, 1.8, 0.1};
+
+// People's own stream of random numbers, so that they change nothing else.
 constexpr std::uint64_t kStream = 201;
 
 // A closed path through a few rooms; empty when a room cannot be reached.
@@ -56,7 +64,7 @@ class Walker {
     const auto gap = [&](int direction) {
       return (at(along_m_ + direction * distance_m) - robot).norm();
     };
-    if (gap(direction_) < kTurnRound && gap(-direction_) > gap(direction_))
+    if (gap(direction_) < kTurnRound_m && gap(-direction_) > gap(direction_))
       direction_ = -direction_;
     const Vector2d before = at(along_m_);
     along_m_ += direction_ * distance_m;
@@ -87,12 +95,12 @@ std::optional<Trajectory> walk_along(const Path& path, const Trajectory& robot, 
   Walker walker(path);
   walker.place(random.uniform(0.0, walker.length_m()));
   std::vector<Pose2> poses;
-  for (double t = 0.0; t <= duration_s + kPeriod; t += kPeriod) {
+  for (double t = 0.0; t <= duration_s + kPeriod_s; t += kPeriod_s) {
     const Pose2 robot_pose = robot.at(t);
-    poses.push_back(walker.step(speed_mps * kPeriod, {robot_pose.x_m, robot_pose.y_m}));
-    if (distance_m(poses.back(), robot_pose) < kNeverNearer) return std::nullopt;
+    poses.push_back(walker.step(speed_mps * kPeriod_s, {robot_pose.x_m, robot_pose.y_m}));
+    if (distance_m(poses.back(), robot_pose) < kNeverNearer_m) return std::nullopt;
   }
-  return Trajectory(kPeriod, std::move(poses));
+  return Trajectory(kPeriod_s, std::move(poses));
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace {
 using Eigen::Vector2d;
 using Path = std::vector<Vector2d>;
 
-// Down one side of the corridor and back on the other.
+// Rooms in the order of a tour: down one side of the corridor and back on the other.
 Path stops(const Building& building) {
   std::vector<Room> rooms = building.rooms;
   const auto left = std::stable_partition(rooms.begin(), rooms.end(),

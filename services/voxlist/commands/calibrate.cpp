@@ -33,7 +33,7 @@ constexpr auto kTable = "cloud_assembler";
 
 using Values = std::vector<std::pair<std::string, std::string>>;
 
-// In the file's units.
+// A value in the file's units.
 std::string told(std::size_t parameter, double value) {
   const calibration::ParameterInfo& info = calibration::kParameterInfos[parameter];
   return fmt::format("{:.{}f}", value * info.file_units, info.decimals);

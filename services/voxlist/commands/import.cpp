@@ -42,8 +42,8 @@ class Importer {
   const Written& written() const { return written_; }
 
  private:
-  // At the data's own time, so that a replay runs at the data's pace. Returns how many were
-  // written.
+  // Publishes at the data's own time, so that a replay runs at the data's pace. Returns how many
+  // were written.
   template <class M>
   int write(bus::Channel<M> channel, const M& message) {
     std::vector<std::uint8_t> bytes;

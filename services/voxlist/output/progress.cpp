@@ -13,7 +13,7 @@ constexpr std::chrono::milliseconds kDrawEvery(100);
 constexpr std::chrono::seconds kPrintEvery(5);
 constexpr int kBarWidth = 30;
 
-// Below this the rest cannot be estimated.
+// Below this share the time that is left cannot be estimated.
 constexpr double kMinShare = 0.01;
 
 std::string bar(double share) {

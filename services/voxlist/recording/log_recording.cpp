@@ -11,7 +11,7 @@
 namespace voxlist::desk {
 namespace {
 
-// How far a pose's time may be from its scan's: what rounding to hundredths of a second costs.
+// How far a pose's time may be from its scan's (us): what rounding to hundredths of a second costs.
 constexpr std::int64_t kSameTime_us = 10'000;
 
 RowOfScan match_times(const io::PoseTable& poses) {

@@ -5,6 +5,8 @@
 namespace voxlist::desk {
 namespace {
 
+// Of each reason so many are told one by one; the rest is only counted, so that a damaged log does
+// not flood the terminal.
 constexpr std::int64_t kToldOfEach = 3;
 
 }  // namespace

@@ -17,7 +17,7 @@ namespace voxlist::desk {
 /// heard.
 class SimulatedLog {
  public:
-  /// Times in the log count from here, so that they look like a day's.
+  /// Start of a run in the log: a time that looks like a day's (us).
   static constexpr std::int64_t kStart_us = 1'700'000'000'000'000;
 
   /// How many of each were written.
