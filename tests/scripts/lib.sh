@@ -3,7 +3,7 @@
 
 scripts=$(cd "$(dirname "${BASH_SOURCE[0]}")/../../scripts" && pwd)
 work=$(mktemp -d /tmp/voxlist_test.XXXXXX)
-export VOXLIST_RUN_DIR=$work/run
+export VOXLIST_RUN_DIR=$work/run XDG_STATE_HOME=$work/state
 trap 'rm -rf "$work"' EXIT
 
 skip() {
