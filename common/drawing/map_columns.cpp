@@ -10,14 +10,18 @@
 namespace voxlist::drawing {
 namespace {
 
-// Nothing that one walks into hangs higher, no ceiling hangs lower.
+// Height above the floor (m) from which on voxels may be a ceiling: doors and people are lower, and
+// no ceiling hangs lower.
 constexpr float kOverheadM = 2.0F;
+// Above that, a column is looked at in levels of this height (m), over blocks of the same width:
+// large enough that the few lines which meet a far wall hit most of its levels.
 constexpr float kLevelM = 0.4F;
-// Far walls are seen by few lines: two levels may be missing between two that are there.
+// A wall may miss two levels between two that were seen: few lines meet what is far away.
 constexpr int kMaxStep = 3;
+// So many levels make a wall; a ceiling with its beams and lamps fills one or two.
 constexpr std::size_t kWallLevels = 3;
-// In columns whose floor was not seen the lowest voxel is higher: the floor is where the low ones
-// begin.
+// The floor's height is this quantile of the columns' lowest voxels: the floor is not seen in every
+// column, and where it is not the lowest voxel lies higher.
 constexpr double kFloorShare = 0.25;
 
 struct Voxel {
@@ -104,7 +108,7 @@ std::vector<MapColumn> map_columns(const std::vector<Eigen::Vector3f>& points, d
     if (columns.empty() || columns.back().cell != voxel.cell) {
       columns.push_back({voxel.cell, voxel.height_m, layer_m});
     } else if (voxel.height_m > columns.back().top_m + layer_m / 2.0F) {
-      // Cells wider than a voxel hold several at one height: those count once.
+      // A cell that is wider than a voxel holds several at one height; they count once.
       columns.back().top_m = voxel.height_m;
       columns.back().solid_m += layer_m;
     }

@@ -5,7 +5,7 @@
 
 namespace voxlist::drawing {
 
-/// What is to be seen of one cell of the floor plan.
+/// One cell of the floor plan, with the voxels that stand above it.
 struct MapColumn {
   Eigen::Vector2i cell;
   /// Height of the highest voxel (m).
@@ -14,10 +14,12 @@ struct MapColumn {
   float solid_m;
 };
 
-/// Cuts a voxel map into columns over a grid of `cell_m` (voxel centres in metres; cells are
-/// floor(xy / cell_m)), without what hangs in the air: what is more than 2 m above the floor counts
-/// only where it climbs from there by steps of at most 1.2 m and at least three levels of 0.4 m, as
-/// walls and pillars do and ceilings do not. Cells of which nothing is left are not in the answer.
+/// Cuts a voxel map into columns over a grid of `cell_m`; `points` are the centres of voxels of
+/// edge `resolution_m` (m), and a point's cell is floor(xy / cell_m).
+///
+/// Ceilings are left out. A voxel that is more than 2 m above the floor stays only where a wall or
+/// a pillar reaches up to it: at least three levels of 0.4 m with no gap of more than 1.2 m. A cell
+/// of which nothing is left is not in the answer.
 std::vector<MapColumn> map_columns(const std::vector<Eigen::Vector3f>& points, double cell_m,
                                    double resolution_m);
 

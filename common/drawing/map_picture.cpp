@@ -1,8 +1,9 @@
 #include "voxlist/drawing/map_picture.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <string>
 #include <utility>
 
@@ -21,7 +22,9 @@ constexpr double kMapPixels = 1460.0;
 constexpr int kMargin = 40;
 constexpr int kFooter = 84;
 constexpr int kWidth = static_cast<int>(kMapPixels) + 2 * kMargin;
-constexpr double kTextSize = 15.0;
+constexpr double kTextSize = 20.0;
+// Half the height of a digit: moves the baseline so that text stands beside the middle of a mark.
+constexpr double kHalfDigit = 0.36 * kTextSize;
 
 double quantile(std::vector<double> values, double share) {
   const auto at = values.begin() + std::lround(share * static_cast<double>(values.size() - 1));
@@ -34,7 +37,7 @@ struct Box {
   Vector2d high = Vector2d::Ones();
 };
 
-/// Where the map is, without the few points far out; the whole path is in it.
+/// The rectangle that is drawn: all but the few points far out, and the whole path.
 Box extent(const std::vector<Eigen::Vector3f>& points, const std::vector<Pose2>& path) {
   constexpr double kOutliers = 0.001;
   Box box;
@@ -58,14 +61,14 @@ Box extent(const std::vector<Eigen::Vector3f>& points, const std::vector<Pose2>&
   return box;
 }
 
-/// From the map frame to pixels of the picture, with the map's longer side across.
+/// Takes the map frame to pixels of the picture, with the map's longer side across.
 class Layout {
  public:
   Layout(const Box& box, double resolution_m) : box_(box) {
     const Vector2d size = box.high - box.low;
     turned_ = size.y() > size.x();
     pixels_per_m_ = kMapPixels / size.maxCoeff();
-    // Cells are voxels, or several of them where a voxel is smaller than a pixel.
+    // A cell is as wide as a voxel, or as several where a voxel is smaller than a pixel.
     cell_m_ = resolution_m * std::ceil(1.0 / (resolution_m * pixels_per_m_));
   }
 
@@ -104,10 +107,10 @@ struct HeightRange {
   }
 };
 
-/// From the floor to the top of the walls.
+/// The heights that the colours span: from the floor to the top of the walls.
 HeightRange height_range(const std::vector<MapColumn>& columns) {
-  constexpr float kWallM = 0.5F;
-  constexpr double kOutliers = 0.02;
+  constexpr float kWallM = 0.5F;      // a column with so much above each other is a wall
+  constexpr double kOutliers = 0.02;  // share at each end: stray points would take all the colours
   std::vector<double> all, walls;
   for (const MapColumn& column : columns) {
     all.push_back(static_cast<double>(column.top_m));
@@ -123,8 +126,11 @@ HeightRange height_range(const std::vector<MapColumn>& columns) {
   return {low, std::max(high, low + 0.5)};
 }
 
-void draw_columns(Picture& picture, const Layout& layout, const std::vector<MapColumn>& columns,
-                  const HeightRange& heights) {
+Raster draw_columns(const Layout& layout, const std::vector<MapColumn>& columns,
+                    const HeightRange& heights) {
+  Raster raster(kWidth, layout.bottom(), kBackground);
+  // A single layer has a little more than this share of its colour; so much above each other (m)
+  // takes it two thirds of the way to the whole.
   constexpr double kDim = 0.55, kWallM = 0.5;
   for (const MapColumn& column : columns) {
     const Vector2d low = column.cell.cast<double>() * layout.cell_m();
@@ -134,11 +140,12 @@ void draw_columns(Picture& picture, const Layout& layout, const std::vector<MapC
       const Eigen::Vector2i first = a.cwiseMin(b).array().round().cast<int>();
       const Eigen::Vector2i last = a.cwiseMax(b).array().round().cast<int>();
       const double solid = 1.0 - std::exp(-static_cast<double>(column.solid_m) / kWallM);
-      picture.fill(first.x(), first.y(), last.x(), last.y(),
-                   io::mix(kBackground, heights.colour(static_cast<double>(column.top_m)),
-                           kDim + (1.0 - kDim) * solid));
+      raster.fill(first.x(), first.y(), last.x(), last.y(),
+                  io::mix(kBackground, heights.colour(static_cast<double>(column.top_m)),
+                          kDim + (1.0 - kDim) * solid));
     }
   }
+  return raster;
 }
 
 void draw_path(Picture& picture, const Layout& layout, const std::vector<Pose2>& path) {
@@ -146,9 +153,7 @@ void draw_path(Picture& picture, const Layout& layout, const std::vector<Pose2>&
   for (const Pose2& pose : path) {
     pixels.push_back(layout.pixel({pose.x_m, pose.y_m}));
   }
-  for (std::size_t i = 1; i < pixels.size(); ++i) {
-    picture.line(pixels[i - 1], pixels[i], 3.0, kPath);
-  }
+  picture.line(pixels, 3.0, kPath);
   if (!pixels.empty()) {
     picture.disc(pixels.front(), 15.0, kBackground);
     picture.disc(pixels.front(), 12.0, kStart);
@@ -163,24 +168,18 @@ double round_length(double limit) {
   return power * (limit >= 5.0 * power ? 5.0 : limit >= 2.0 * power ? 2.0 : 1.0);
 }
 
-std::string format(const char* pattern, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, pattern, value);
-  return text;
-}
-
 void draw_scale_bar(Picture& picture, const Layout& layout, double left, double y) {
   const double length_m = round_length(180.0 / layout.pixels_per_m());
   const double right = left + length_m * layout.pixels_per_m();
-  picture.line({left, y}, {right, y}, 2.0, kInk);
-  picture.line({left, y - 5.0}, {left, y + 5.0}, 2.0, kInk);
-  picture.line({right, y - 5.0}, {right, y + 5.0}, 2.0, kInk);
-  picture.text({right + 12.0, y + kTextSize / 2.0}, format("%g m", length_m), kTextSize, kInk);
+  picture.line({{left, y}, {right, y}}, 2.0, kInk);
+  picture.line({{left, y - 5.0}, {left, y + 5.0}}, 2.0, kInk);
+  picture.line({{right, y - 5.0}, {right, y + 5.0}}, 2.0, kInk);
+  picture.text({right + 12.0, y + kHalfDigit}, fmt::format("{:g} m", length_m), kTextSize, kInk);
 }
 
 void draw_mark(Picture& picture, double x, double y, io::Rgb colour, const char* name) {
   picture.disc({x, y}, 12.0, colour);
-  picture.text({x + 14.0, y + kTextSize / 2.0}, name, kTextSize, kInk);
+  picture.text({x + 14.0, y + kHalfDigit}, name, kTextSize, kInk);
 }
 
 void draw_axes(Picture& picture, const Layout& layout, const Vector2d& centre) {
@@ -191,23 +190,30 @@ void draw_axes(Picture& picture, const Layout& layout, const Vector2d& centre) {
   const Vector2d origin = centre - 0.5 * kLength * (x + y);
   for (const auto& [along, name] : {std::pair(x, "x"), std::pair(y, "y")}) {
     const Vector2d tip = origin + kLength * along;
-    picture.line(origin, tip, 2.0, kInk);
-    picture.text(tip + 12.0 * along + Vector2d(0.0, kTextSize / 4.0), name, kTextSize, kInk,
+    picture.line({origin, tip}, 2.0, kInk);
+    picture.text(tip + 12.0 * along + Vector2d(0.0, kHalfDigit - 2.0), name, kTextSize, kInk,
                  TextAnchor::kCentre);
   }
 }
 
-void draw_height_legend(Picture& picture, const HeightRange& heights, int right, int y) {
+Raster colour_bar() {
   constexpr int kLength = 160, kThick = 10;
-  const std::string high = format("%.1f m", heights.high_m), low = format("%.1f", heights.low_m);
-  const double text_y = y + kTextSize / 2.0;
-  const int end = right - static_cast<int>(text_width(high, kTextSize)) - 12;
-  for (int i = 0; i < kLength; ++i) {
-    picture.fill(end - kLength + i, y - kThick / 2, end - kLength + i + 1, y + kThick / 2,
-                 io::viridis(static_cast<double>(i) / (kLength - 1)));
+  Raster bar(kLength, kThick, kBackground);
+  for (int x = 0; x < kLength; ++x) {
+    bar.fill(x, 0, x + 1, kThick, io::viridis(static_cast<double>(x) / (kLength - 1)));
   }
-  picture.text({static_cast<double>(right), text_y}, high, kTextSize, kInk, TextAnchor::kRight);
-  picture.text({end - kLength - 12.0, text_y}, "height " + low, kTextSize, kInk,
+  return bar;
+}
+
+void draw_height_legend(Picture& picture, const HeightRange& heights, double right, double y) {
+  constexpr double kGap = 12.0;
+  const double text_y = y + kHalfDigit;
+  right -= kGap + picture.text({right, text_y}, fmt::format("{:.1f} m", heights.high_m), kTextSize,
+                               kInk, TextAnchor::kRight);
+  const Raster bar = colour_bar();
+  right -= bar.width;
+  picture.paste(bar, static_cast<int>(right), static_cast<int>(y) - bar.height / 2);
+  picture.text({right - kGap, text_y}, fmt::format("height {:.1f}", heights.low_m), kTextSize, kInk,
                TextAnchor::kRight);
 }
 
@@ -219,7 +225,7 @@ Picture draw_map(const std::vector<Eigen::Vector3f>& points, const std::vector<P
   const std::vector<MapColumn> columns = map_columns(points, layout.cell_m(), resolution_m);
   const HeightRange heights = height_range(columns);
   Picture picture(kWidth, layout.bottom() + kFooter, kBackground);
-  draw_columns(picture, layout, columns, heights);
+  picture.paste(draw_columns(layout, columns, heights), 0, 0);
   draw_path(picture, layout, path);
   const int y = picture.height() - kFooter / 2;
   draw_scale_bar(picture, layout, kMargin, y);

@@ -2,60 +2,56 @@
 
 #include <Eigen/Core>
 #include <filesystem>
-#include <string_view>
+#include <memory>
+#include <string>
 #include <vector>
 
-#include "voxlist/io/clouds/colour.h"
+#include "voxlist/drawing/raster.h"
 
 namespace voxlist::drawing {
 
-/// Where on a text the given point lies.
+/// Where the given point lies on a text.
 enum class TextAnchor { kLeft, kCentre, kRight };
 
-/// An RGB image to draw on. Pixel (0, 0) is at the top left, x right, y down; a pixel's centre has
-/// whole coordinates. What lies outside is not drawn. Lines, discs and text have smooth edges.
+/// A page of lines, text and images, in pixels: x to the right, y down, whole coordinates at the
+/// centres of pixels, (0, 0) at the top left. It keeps what was drawn as shapes, so that it can be
+/// written as pixels or as vectors. Whatever lies outside the page is cut off.
 class Picture {
  public:
+  /// Sides of 1 to 20000 pixels; throws std::invalid_argument otherwise.
   Picture(int width, int height, io::Rgb background);
+  Picture(Picture&&) noexcept;
+  Picture& operator=(Picture&&) noexcept;
+  ~Picture();
 
   int width() const { return width_; }
   int height() const { return height_; }
-  const std::vector<io::Rgb>& pixels() const { return pixels_; }  ///< row after row
 
-  /// The pixel's colour; it must lie inside.
-  io::Rgb at(int x, int y) const;
+  /// Joins the points by a line of this width with round ends. The line is broken where a point is
+  /// not finite or more than a million pixels away.
+  void line(const std::vector<Eigen::Vector2d>& points, double width, io::Rgb colour);
 
-  /// Sets a pixel, or mixes a share (0..1) of the colour into it.
-  void set(int x, int y, io::Rgb colour, double share = 1.0);
+  void disc(const Eigen::Vector2d& centre, double diameter, io::Rgb colour);
 
-  /// Fills the rectangle of these pixels, x from left to right - 1, y from top to bottom - 1.
-  void fill(int left, int top, int right, int bottom, io::Rgb colour, double share = 1.0);
+  /// Writes one line of text (UTF-8) in a font of `size` pixels; its baseline is at the anchor's y.
+  /// Returns the text's width in pixels.
+  double text(const Eigen::Vector2d& anchor, const std::string& words, double size, io::Rgb colour,
+              TextAnchor side = TextAnchor::kLeft);
 
-  /// A line of this width (pixels) with round ends; a disc of this diameter where both ends are the
-  /// same.
-  void line(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double width, io::Rgb colour);
-  void disc(const Eigen::Vector2d& centre, double diameter, io::Rgb colour) {
-    line(centre, centre, diameter, colour);
-  }
-
-  /// One line of text whose digits are `size` pixels high and stand on the anchor's y. Letters are
-  /// drawn lower case; signs that the font lacks are left blank.
-  void text(const Eigen::Vector2d& anchor, std::string_view words, double size, io::Rgb colour,
-            TextAnchor side = TextAnchor::kLeft);
-
-  /// Copies another picture to (left, top).
+  /// Copies an image or another picture; its top left corner comes to this pixel.
+  void paste(const Raster& image, int left, int top);
   void paste(const Picture& other, int left, int top);
 
+  /// Writes the picture as PNG or as SVG, atomically. Throws io::FileError.
+  void write_png(const std::filesystem::path& path) const;
+  void write_svg(const std::filesystem::path& path) const;
+
  private:
+  struct Page;
+
   int width_;
   int height_;
-  std::vector<io::Rgb> pixels_;
+  std::unique_ptr<Page> page_;
 };
-
-/// Width of a text in pixels as Picture::text draws it.
-double text_width(std::string_view words, double size);
-
-/// Writes the picture as PNG, atomically. Throws FileError.
-void write_png(const std::filesystem::path& path, const Picture& picture);
 
 }  // namespace voxlist::drawing

@@ -1,9 +1,9 @@
 #include "voxlist/drawing/plot.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 
 namespace voxlist::drawing {
 namespace {
@@ -13,10 +13,10 @@ using Eigen::Vector2d;
 constexpr io::Rgb kPaper{255, 255, 255};
 constexpr io::Rgb kInk{40, 44, 52};
 constexpr io::Rgb kGrid{226, 228, 232};
-constexpr double kTextSize = 11.0;
+constexpr double kTextSize = 14.0, kTitleSize = 18.0;  // pixels, as everything here
 constexpr int kLeft = 70, kRight = 24, kTop = 52, kBottom = 56;
 
-/// From values to pixels.
+/// Takes values to pixels.
 class Axes {
  public:
   Axes(const PlotFrame& frame, const std::vector<PlotSeries>& series) {
@@ -65,45 +65,41 @@ class Axes {
   Vector2d size_, low_, high_;
 };
 
-std::string label(double value) {
-  std::array<char, 32> text;
-  std::snprintf(text.data(), text.size(), "%g", value);
-  return text.data();
+// A line that lies between two rows of pixels would be two of them wide, and grey.
+void draw_straight(Picture& picture, const Vector2d& from, const Vector2d& to, io::Rgb colour) {
+  picture.line({from.array().round(), to.array().round()}, 1.0, colour);
 }
 
 void draw_grid(Picture& picture, const Axes& axes) {
-  for (const double x : plot_ticks(axes.low().x(), axes.high().x(), 8)) {
-    const Vector2d foot = axes.pixel({x, axes.low().y()}), head = axes.pixel({x, axes.high().y()});
-    picture.line(foot, head, 1.0, kGrid);
-    picture.text(foot + Vector2d(0.0, 18.0), label(x), kTextSize, kInk, TextAnchor::kCentre);
+  const Vector2d low = axes.low(), high = axes.high();
+  for (const double x : plot_ticks(low.x(), high.x(), 8)) {
+    const Vector2d foot = axes.pixel({x, low.y()});
+    draw_straight(picture, foot, axes.pixel({x, high.y()}), kGrid);
+    picture.text(foot + Vector2d(0.0, 20.0), fmt::format("{:g}", x), kTextSize, kInk,
+                 TextAnchor::kCentre);
   }
-  for (const double y : plot_ticks(axes.low().y(), axes.high().y(), 6)) {
-    const Vector2d left = axes.pixel({axes.low().x(), y}), right = axes.pixel({axes.high().x(), y});
-    picture.line(left, right, 1.0, kGrid);
-    picture.text(left + Vector2d(-8.0, kTextSize / 2.0), label(y), kTextSize, kInk,
+  for (const double y : plot_ticks(low.y(), high.y(), 6)) {
+    const Vector2d left = axes.pixel({low.x(), y});
+    draw_straight(picture, left, axes.pixel({high.x(), y}), kGrid);
+    picture.text(left + Vector2d(-8.0, 0.36 * kTextSize), fmt::format("{:g}", y), kTextSize, kInk,
                  TextAnchor::kRight);
   }
-  const Vector2d origin = axes.pixel(axes.low());
-  picture.line(origin, axes.pixel({axes.high().x(), axes.low().y()}), 1.5, kInk);
-  picture.line(origin, axes.pixel({axes.low().x(), axes.high().y()}), 1.5, kInk);
+  draw_straight(picture, axes.pixel(low), axes.pixel({high.x(), low.y()}), kInk);
+  draw_straight(picture, axes.pixel(low), axes.pixel({low.x(), high.y()}), kInk);
 }
 
-void draw_line(Picture& picture, const Axes& axes, const PlotSeries& series) {
-  for (std::size_t i = 0; i + 1 < series.points.size(); ++i) {
-    picture.line(axes.pixel(series.points[i]), axes.pixel(series.points[i + 1]), 2.0,
-                 series.colour);
-  }
-  if (series.points.size() == 1) {
-    picture.disc(axes.pixel(series.points.front()), 6.0, series.colour);
-  }
+void draw_series(Picture& picture, const Axes& axes, const PlotSeries& series) {
+  std::vector<Vector2d> pixels;
+  for (const Vector2d& point : series.points) pixels.push_back(axes.pixel(point));
+  picture.line(pixels, 2.0, series.colour);
+  if (pixels.size() == 1) picture.disc(pixels.front(), 6.0, series.colour);
 }
 
 void draw_legend(Picture& picture, const std::vector<PlotSeries>& series) {
   double right = picture.width() - kRight;
   for (auto line = series.rbegin(); line != series.rend(); ++line) {
-    picture.text({right, 38.0}, line->name, kTextSize, kInk, TextAnchor::kRight);
-    right -= text_width(line->name, kTextSize) + 10.0;
-    picture.line({right - 20.0, 33.0}, {right, 33.0}, 3.0, line->colour);
+    right -= 10.0 + picture.text({right, 38.0}, line->name, kTextSize, kInk, TextAnchor::kRight);
+    picture.line({{right - 20.0, 33.0}, {right, 33.0}}, 3.0, line->colour);
     right -= 44.0;
   }
 }
@@ -114,13 +110,11 @@ Picture draw_plot(const PlotFrame& frame, const std::vector<PlotSeries>& series)
   Picture picture(frame.width, frame.height, kPaper);
   const Axes axes(frame, series);
   draw_grid(picture, axes);
-  for (const PlotSeries& line : series) {
-    draw_line(picture, axes, line);
-  }
+  for (const PlotSeries& line : series) draw_series(picture, axes, line);
   draw_legend(picture, series);
-  picture.text({kLeft, 22.0}, frame.title, 14.0, kInk);
+  picture.text({kLeft, 20.0}, frame.title, kTitleSize, kInk);
   picture.text({kLeft, 42.0}, frame.y_label, kTextSize, kInk);
-  picture.text({static_cast<double>(frame.width - kRight), frame.height - 14.0}, frame.x_label,
+  picture.text({static_cast<double>(frame.width - kRight), frame.height - 12.0}, frame.x_label,
                kTextSize, kInk, TextAnchor::kRight);
   return picture;
 }

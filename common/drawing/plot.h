@@ -15,7 +15,7 @@ struct PlotSeries {
   std::vector<Eigen::Vector2d> points;
 };
 
-/// What stands around a plot. Letters are drawn lower case.
+/// What stands around a plot.
 struct PlotFrame {
   std::string title;
   std::string x_label;
@@ -29,7 +29,8 @@ struct PlotFrame {
 /// A line plot on white; axes and ticks follow from the (finite) points.
 Picture draw_plot(const PlotFrame& frame, const std::vector<PlotSeries>& series);
 
-/// The ticks (1, 2 or 5 times a power of ten apart, about `count` of them) from low to high.
+/// The values from low to high that an axis is marked at: about `count`, and 1, 2 or 5 times a
+/// power of ten apart. None where low is not below high or one of them is not finite.
 std::vector<double> plot_ticks(double low, double high, int count);
 
 }  // namespace voxlist::drawing

@@ -73,7 +73,8 @@ ErrorStatistics errors_3d(const Pose2& T_truth_estimate, const Matches& matches)
   return statistics(errors);
 }
 
-/// The motion from a to b as estimated, seen from where it truly ended.
+/// The difference between the estimated and the true motion from a to b, in the frame of the pose
+/// that the true motion ends at.
 Pose2 motion_error(const Match& a, const Match& b) {
   const Pose2 true_motion = a.truth2.inverse() * b.truth2;
   const Pose2 estimated_motion = a.estimate2.inverse() * b.estimate2;
@@ -115,7 +116,7 @@ PoseErrors errors_per_metre(const Matches& matches) {
   return {statistics(positions), statistics(headings)};
 }
 
-/// For each match whether the one before it is the pose before it in the truth, in order of time.
+/// Says for each match whether the match before it is also the pose before it in the truth.
 std::vector<bool> follow_each_other(const Matches& matches, const io::PoseTable& truth) {
   std::vector<std::int64_t> times;
   for (const io::PoseRow& row : truth.rows) {

@@ -19,16 +19,16 @@ struct ErrorStatistics {
   double max = 0.0;
 };
 
-/// Statistics of non-negative errors.
+/// The statistics of these errors, none of them negative.
 ErrorStatistics statistics(std::vector<double> errors);
 
-/// How poses of an estimate were found for those of the truth.
+/// By what poses of the estimate were paired with those of the truth.
 enum class Association { kByTime, kByScanNumber };
 
-/// An estimated pose with the true one, the estimate in the truth's frame after the first pose was
-/// anchored.
+/// A true pose and its estimate. The estimate is in the truth's frame: the trajectory was moved so
+/// that its first pose lies on the true one.
 struct MatchedPose {
-  std::int64_t utime_us = 0;  ///< the truth's
+  std::int64_t utime_us = 0;  ///< time of the true pose
   Pose2 truth;
   Pose2 anchored;
 };
@@ -43,9 +43,10 @@ struct TrajectoryErrors {
   /// is off.
   ErrorStatistics anchored_m;
   ErrorStatistics anchored_heading_rad;
-  double end_position_m = 0.0;  ///< of the last matched pose
+  double end_position_m = 0.0;  ///< error of the last matched pose
 
-  /// The same with heights (the first one anchored too); only where the truth has them.
+  /// The same with heights, the first height laid onto its truth, too. Nothing where the truth has
+  /// no heights.
   std::optional<ErrorStatistics> anchored_3d_m;
 
   /// Errors after the rigid planar motion that makes the positions' RMSE smallest.
@@ -78,7 +79,7 @@ std::optional<TrajectoryErrors> evaluate(const std::vector<StampedPose3>& estima
 /// points, Umeyama's closed form without scale. Precondition: as many points in both, at least one.
 Pose2 align(const std::vector<Eigen::Vector2d>& from, const std::vector<Eigen::Vector2d>& to);
 
-/// Both trajectories from above, and below them the position error over time.
+/// Draws both trajectories from above and, below them, the position error over time.
 drawing::Picture draw_errors(const TrajectoryErrors& errors);
 
 }  // namespace voxlist::evaluation

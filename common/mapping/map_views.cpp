@@ -17,7 +17,7 @@ void write_map_views(const std::filesystem::path& folder, const VoxelMap& map,
 
   io::write_tum(folder / "trajectory.tum", trajectory);
   io::write_ply(folder / "map.ply", centers, io::colours_by_height(centers));
-  drawing::write_png(folder / "map.png", drawing::draw_map(centers, path, map.resolution_m()));
+  drawing::draw_map(centers, path, map.resolution_m()).write_png(folder / "map.png");
 }
 
 }  // namespace voxlist::mapping

@@ -1,94 +1,127 @@
 #include "voxlist/drawing/picture.h"
 
 #include <gtest/gtest.h>
-#include <png.h>
 
-#include <set>
+#include <cmath>
 
-#include "tests/io/scans/scan_files.h"
+#include "tests/drawing/pixels.h"
 #include "tests/temporary_folder.h"
-#include "voxlist/drawing/map_columns.h"
-#include "voxlist/drawing/map_picture.h"
-#include "voxlist/drawing/plot.h"
-#include "voxlist/drawing/stroke_font.h"
 #include "voxlist/io/files/file.h"
 
 namespace voxlist::drawing {
 namespace {
 
+using test::pixels_of;
 using test::TemporaryFolder;
 
 constexpr io::Rgb kBlack{0, 0, 0};
 constexpr io::Rgb kWhite{255, 255, 255};
 constexpr io::Rgb kRed{255, 0, 0};
 
-std::size_t count(const Picture& picture, io::Rgb colour) {
-  return static_cast<std::size_t>(
-      std::count(picture.pixels().begin(), picture.pixels().end(), colour));
+std::string svg_of(const Picture& picture) {
+  const TemporaryFolder folder;
+  picture.write_svg(folder / "a.svg");
+  return io::read_file(folder / "a.svg");
+}
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t found = 0;
+  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
+  return found;
 }
 
 TEST(Picture, DrawsDiscsOfTheRightAreaAndLinesWhereTheyBelong) {
   Picture picture(100, 100, kBlack);
   picture.disc({50.0, 50.0}, 40.0, kWhite);
-  EXPECT_NEAR(static_cast<double>(count(picture, kWhite)), 3.14159 * 19.5 * 19.5, 60.0);
-  picture.line({0.0, 10.0}, {99.0, 10.0}, 1.0, kRed);
-  EXPECT_EQ(picture.at(0, 10), kRed);
-  EXPECT_EQ(picture.at(99, 10), kRed);
-  EXPECT_EQ(picture.at(50, 12), kBlack);
+  EXPECT_NEAR(static_cast<double>(pixels_of(picture).count(kWhite)), 3.14159 * 19.5 * 19.5, 60.0);
+  picture.line({{0.0, 10.0}, {99.0, 10.0}}, 1.0, kRed);
+  EXPECT_EQ(pixels_of(picture).at(1, 10), kRed);
+  EXPECT_EQ(pixels_of(picture).at(98, 10), kRed);
+  EXPECT_EQ(pixels_of(picture).at(50, 12), kBlack);
+}
+
+TEST(Picture, BreaksALineWhereAPointIsNone) {
+  Picture picture(100, 20, kBlack);
+  picture.line({{0.0, 10.0}, {20.0, 10.0}, {NAN, 10.0}, {60.0, 10.0}, {99.0, 10.0}}, 1.0, kRed);
+  EXPECT_EQ(pixels_of(picture).at(10, 10), kRed);
+  EXPECT_EQ(pixels_of(picture).at(40, 10), kBlack);
+  EXPECT_EQ(pixels_of(picture).at(80, 10), kRed);
 }
 
 TEST(Picture, LeavesOutWhatLiesOutside) {
   Picture picture(10, 10, kBlack);
-  picture.set(-1, 3, kRed);
   picture.disc({1e12, -1e12}, 5.0, kRed);
-  picture.line({-50.0, 5.0}, {HUGE_VAL, 5.0}, 1.0, kRed);
-  picture.fill(-5, -5, 0, 20, kRed);
-  EXPECT_EQ(count(picture, kBlack), 100U);
+  picture.line({{-50.0, 5.0}, {HUGE_VAL, 5.0}}, 1.0, kRed);
+  picture.line({{-50.0, -5.0}, {50.0, -5.0}}, 1.0, kRed);
+  picture.text({500.0, 500.0}, "far", 20.0, kRed);
+  picture.paste(Raster(5, 5, kRed), 10, -5);
+  EXPECT_EQ(pixels_of(picture).count(kBlack), 100U);
+  picture.line({{-50.0, 5.0}, {50.0, 5.0}}, 1.0, kRed);
+  EXPECT_EQ(pixels_of(picture).count(kRed), 10U);
   EXPECT_THROW(Picture(0, 10, kBlack), std::invalid_argument);
 }
 
-TEST(Picture, WritesTextAsWideAsItSays) {
+TEST(Picture, WritesTextAsWideAsItSaysAndWhereItIsTold) {
   Picture picture(200, 40, kBlack);
-  picture.text({100.0, 30.0}, "10 m", 20.0, kWhite, TextAnchor::kCentre);
-  int left = 200, right = 0;
+  const double width = picture.text({100.0, 30.0}, "10 m", 20.0, kWhite, TextAnchor::kCentre);
+  const test::Pixels pixels = pixels_of(picture);
+  int left = 200, right = 0, top = 40, bottom = 0;
   for (int y = 0; y < 40; ++y) {
     for (int x = 0; x < 200; ++x) {
-      if (picture.at(x, y) != kBlack) {
-        left = std::min(left, x);
-        right = std::max(right, x);
-      }
+      if (pixels.at(x, y) == kBlack) continue;
+      left = std::min(left, x), right = std::max(right, x);
+      top = std::min(top, y), bottom = std::max(bottom, y);
     }
   }
   EXPECT_NEAR(left + right, 200, 8);
-  EXPECT_NEAR(right - left, text_width("10 m", 20.0), 8.0);
+  EXPECT_NEAR(right - left, width, 8.0);
+  EXPECT_NEAR(bottom, 30, 1);
+  EXPECT_NEAR(bottom - top, 0.73 * 20.0, 2.0);
 }
 
-TEST(StrokeFont, HasAllThatLabelsNeed) {
-  for (const char c : std::string("abcdefghijklmnopqrstuvwxyz0123456789.,:-+=/()%_")) {
-    ASSERT_FALSE(glyph(c).empty()) << c;
-    for (const GlyphStroke& stroke : glyph(c)) {
-      EXPECT_GE(stroke.from.minCoeff(), 0.0) << c;
-      EXPECT_LE(stroke.to.x(), kGlyphWidth) << c;
-      EXPECT_LE(stroke.to.y(), 8.0) << c;
-    }
-  }
-  EXPECT_TRUE(glyph('~').empty());
+TEST(Picture, LettersDiffer) {
+  const auto written = [](const std::string& words) {
+    Picture picture(60, 40, kBlack);
+    picture.text({10.0, 30.0}, words, 20.0, kWhite);
+    return pixels_of(picture).rgb;
+  };
+  EXPECT_NE(written("a"), written("A"));
+  EXPECT_NE(written("6"), written("9"));
 }
 
-TEST(Picture, IsWrittenAsPngThatLibpngReadsBack) {
-  const test::TemporaryFolder folder;
+TEST(Picture, PastesImagesAndPicturesAtWholePixels) {
   Picture picture(30, 20, kBlack);
-  picture.set(29, 19, kRed);
-  write_png(folder / "a.png", picture);
-  const std::string bytes = io::read_file(folder / "a.png");
-  png_image image{};
-  image.version = PNG_IMAGE_VERSION;
-  ASSERT_TRUE(png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()));
-  image.format = PNG_FORMAT_RGB;
-  std::vector<io::Rgb> pixels(image.width * image.height);
-  ASSERT_TRUE(png_image_finish_read(&image, nullptr, pixels.data(), 0, nullptr));
-  EXPECT_EQ(image.width, 30U);
-  EXPECT_EQ(pixels, picture.pixels());
+  Raster raster(4, 3, kWhite);
+  raster.fill(-5, 2, 2, 9, kRed);
+  picture.paste(raster, 10, 5);
+  EXPECT_EQ(pixels_of(picture).count(kWhite), 10U);
+  EXPECT_EQ(pixels_of(picture).count(kRed), 2U);
+  EXPECT_EQ(pixels_of(picture).at(10, 7), kRed);
+  Picture page(60, 20, kRed);
+  page.paste(picture, 30, 0);
+  EXPECT_EQ(pixels_of(page).at(40, 5), kWhite);
+  EXPECT_EQ(pixels_of(page).count(kBlack), 30U * 20U - 12U);
+}
+
+TEST(Picture, AsSvgIsXmlWithAGlyphForEachLetter) {
+  Picture picture(300, 60, kWhite);
+  const std::size_t before = count(svg_of(picture), "<use ");
+  picture.text({10.0, 30.0}, "y (m) <&", 20.0, kBlack);
+  picture.line({{0.0, 50.0}, {299.0, 50.0}}, 2.0, kRed);
+  const std::string svg = svg_of(picture);
+  EXPECT_TRUE(test::is_xml(svg)) << svg;
+  EXPECT_NE(svg.find("<svg"), std::string::npos);
+  EXPECT_NE(svg.find("width=\"300px\""), std::string::npos) << svg.substr(0, 300);
+  EXPECT_GE(count(svg, "<use ") - before, 6U) << svg;  // blanks may be left out
+  EXPECT_NE(svg.find("rgb(100%,0%,0%)"), std::string::npos) << svg;
+}
+
+TEST(Picture, SaysWhereItCannotBeWrittenAndLeavesWhatWasThere) {
+  const TemporaryFolder folder;
+  const Picture picture(10, 10, kBlack);
+  EXPECT_THROW(picture.write_png(folder / "none/a.png"), io::FileError);
+  EXPECT_THROW(picture.write_svg(folder / "none/a.svg"), io::FileError);
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
 TEST(Colour, RunsThroughViridis) {
@@ -96,77 +129,6 @@ TEST(Colour, RunsThroughViridis) {
   EXPECT_EQ(io::viridis(0.5), (io::Rgb{33, 144, 141}));
   EXPECT_EQ(io::viridis(7.0), (io::Rgb{253, 231, 37}));
   EXPECT_EQ(io::mix(kBlack, kWhite, 0.5), (io::Rgb{128, 128, 128}));
-}
-
-/// A room of 6 x 4 m with floor, ceiling at 3 m and one wall of that height along x = 0, as voxels
-/// of 0.1 m.
-std::vector<Eigen::Vector3f> room() {
-  std::vector<Eigen::Vector3f> points;
-  for (int x = 0; x < 60; ++x) {
-    for (int y = 0; y < 40; ++y) {
-      const auto at = [&](int z) {
-        return Eigen::Vector3f((static_cast<float>(x) + 0.5F) * 0.1F,
-                               (static_cast<float>(y) + 0.5F) * 0.1F,
-                               (static_cast<float>(z) + 0.5F) * 0.1F);
-      };
-      for (int z = 0; z <= 30; ++z) {
-        if (z == 0 || z == 30 || x == 0) {
-          points.push_back(at(z));
-        }
-      }
-    }
-  }
-  return points;
-}
-
-TEST(MapColumns, LeaveTheCeilingOutAndKeepTheWall) {
-  const auto columns = map_columns(room(), 0.1, 0.1);
-  ASSERT_EQ(columns.size(), 2400U);
-  for (const MapColumn& column : columns) {
-    // The ceiling in the wall's block of 0.4 m stands on the wall.
-    if (column.cell.x() == 0) {
-      EXPECT_NEAR(column.solid_m, 3.1F, 0.01F);
-    } else if (column.cell.x() >= 4) {
-      EXPECT_NEAR(column.top_m, 0.05F, 1e-5F);
-      EXPECT_NEAR(column.solid_m, 0.1F, 1e-5F);
-    }
-  }
-}
-
-TEST(MapPicture, PutsTheLongSideAcrossAndWallsInBright) {
-  const Picture lying = draw_map(room(), {{1.0, 1.0, 0.0}, {5.0, 3.0, 0.0}}, 0.1);
-  EXPECT_EQ(lying.width(), 1540);
-  EXPECT_LT(lying.height(), lying.width());
-  auto turned_room = room();
-  for (auto& p : turned_room) {
-    p = {p.y(), p.x(), p.z()};
-  }
-  const Picture turned = draw_map(turned_room, {}, 0.1);
-  EXPECT_EQ(turned.height(), lying.height());
-  const io::Rgb wall = lying.at(78, 400), floor = lying.at(900, 600);
-  EXPECT_GT(wall.r + wall.g + wall.b, floor.r + floor.g + floor.b + 100);
-}
-
-TEST(MapPicture, DrawsEvenAnEmptyMap) {
-  EXPECT_EQ(draw_map({}, {}, 0.05).width(), 1540);
-  EXPECT_EQ(draw_map({{1.0F, 1.0F, 1.0F}}, {}, 0.05).width(), 1540);
-}
-
-TEST(Plot, PutsRoundNumbersOnAxes) {
-  const auto ticks = plot_ticks(-0.31, 1.07, 6);
-  ASSERT_EQ(ticks.size(), 3U);
-  EXPECT_NEAR(ticks[0], 0.0, 1e-12);
-  EXPECT_NEAR(ticks[1], 0.5, 1e-12);
-  EXPECT_TRUE(plot_ticks(1.0, 1.0, 5).empty());
-  EXPECT_TRUE(plot_ticks(0.0, NAN, 5).empty());
-}
-
-TEST(Plot, DrawsLinesAndSurvivesHavingNone) {
-  const Picture some = draw_plot({"t", "x", "y", 400, 300, true}, {{"a", kRed, {{0, 0}, {2, 5}}}});
-  EXPECT_GT(count(some, kRed), 100U);
-  const Picture none = draw_plot({"t", "x", "y", 400, 300, false}, {{"a", kRed, {}}});
-  EXPECT_EQ(none.width(), 400);
-  draw_plot({"t", "x", "y", 400, 300, false}, {{"a", kRed, {{NAN, 1}, {3, 3}}}});
 }
 
 }  // namespace

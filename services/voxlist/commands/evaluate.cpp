@@ -17,6 +17,10 @@ struct EvaluateOptions {
   std::filesystem::path trajectory;
   std::filesystem::path truth;
   std::filesystem::path plot;
+
+  std::filesystem::path png() const {
+    return plot.empty() ? trajectory.parent_path() / "evaluation.png" : plot;
+  }
 };
 
 constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
@@ -66,9 +70,10 @@ int run(const EvaluateOptions& options, Console& console) {
                                    options.trajectory.string()));
   }
   tell(*errors, console);
-  const auto plot =
-      options.plot.empty() ? options.trajectory.parent_path() / "evaluation.png" : options.plot;
-  drawing::write_png(plot, evaluation::draw_errors(*errors));
+  const drawing::Picture picture = evaluation::draw_errors(*errors);
+  const auto plot = options.png();
+  picture.write_png(plot);
+  picture.write_svg(std::filesystem::path(plot).replace_extension(".svg"));
   console.say(plot.string());
   return 0;
 }
@@ -83,7 +88,8 @@ void add_evaluate(CLI::App& program, Command& chosen) {
       ->required();
   command->add_option("POSES", options->truth, "table of the true poses (poses.csv)")->required();
   command->add_option("-o,--output", options->plot,
-                      "the plot to write; default evaluation.png beside the trajectory");
+                      "the plot to write as PNG, with an SVG of the same name beside it; default "
+                      "evaluation.png beside the trajectory");
   command->footer(
       "Example:\n"
       "  voxlist evaluate hall_map/trajectory.tum hall/poses.csv");

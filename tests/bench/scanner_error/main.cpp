@@ -122,13 +122,13 @@ drawing::PlotSeries mark(const std::string& name, const io::Rgb& colour, double 
 
 void plot(const std::string& file, const Figures& calibrated) {
   const double top = *std::ranges::max_element(calibrated.repeating.shares) * 1e2;
-  drawing::write_png(
-      file, drawing::draw_plot({"distance to the closest point of the next scan", "mm", "%"},
-                               {curve("same spots", {30, 90, 200}, calibrated.repeating),
-                                curve("drifting", {200, 60, 40}, calibrated.drifting),
-                                mark("paper: mode", {60, 60, 60}, 4.0, top),
-                                mark("median", {130, 130, 130}, 6.0, top),
-                                mark("mean", {190, 190, 190}, 11.0, top)}));
+  drawing::draw_plot(
+      {"distance to the closest point of the next scan", "mm", "%"},
+      {curve("same spots", {30, 90, 200}, calibrated.repeating),
+       curve("drifting", {200, 60, 40}, calibrated.drifting),
+       mark("paper: mode", {60, 60, 60}, 4.0, top), mark("median", {130, 130, 130}, 6.0, top),
+       mark("mean", {190, 190, 190}, 11.0, top)})
+      .write_png(file);
 }
 
 }  // namespace
