@@ -64,9 +64,12 @@ class Lengths {
 Fault check_lengths(const health_t& message) {
   Lengths lengths;
   lengths.text(message.service)
+      .text(message.version)
       .text(message.message)
-      .array(message.n_counters, message.counters, 8);
+      .array(message.n_counters, message.counters, 8)
+      .array(message.n_gauges, message.gauges, 8);
   for (const counter_t& counter : message.counters) lengths.text(counter.name);
+  for (const gauge_t& gauge : message.gauges) lengths.text(gauge.name);
   return lengths.fault();
 }
 

@@ -90,6 +90,14 @@ void WireReader::text() {
   skip(n);
 }
 
+void WireReader::named_values(std::int64_t bytes_each) {
+  const std::int64_t n = count(kEmptyText + bytes_each);
+  for (std::int64_t i = 0; i < n; ++i) {
+    text();
+    skip(bytes_each);
+  }
+}
+
 Fault WireReader::finish() const {
   if (fault_ != Fault::kNone) return fault_;
   return rest_.empty() ? Fault::kNone : Fault::kTrailingBytes;
@@ -98,13 +106,11 @@ Fault WireReader::finish() const {
 void walk(WireReader& in, const health_t*) {
   in.skip(kInt64);
   in.text();
+  in.text();
   in.skip(2 * kInt32);
   in.text();
-  const std::int64_t n = in.count(kEmptyText + kInt64);
-  for (std::int64_t i = 0; i < n; ++i) {
-    in.text();
-    in.skip(kInt64);
-  }
+  in.named_values(kInt64);
+  in.named_values(kDouble);
   in.skip(3 * kFloat);
 }
 

@@ -68,6 +68,9 @@ class WireReader {
   /// Passes over a string.
   void text();
 
+  /// Reads a length and passes over that many pairs of a string and a value of `bytes_each`.
+  void named_values(std::int64_t bytes_each);
+
   /// The first fault; kTrailingBytes when there was none but bytes are left.
   Fault finish() const;
 

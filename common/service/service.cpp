@@ -16,6 +16,7 @@
 #include "voxlist/service/drop_report.h"
 #include "voxlist/service/instance_lock.h"
 #include "voxlist/service/run_folder.h"
+#include "voxlist/service/state_log.h"
 
 namespace voxlist::service {
 namespace {
@@ -68,10 +69,21 @@ void log_troubles(const bus::Bus& bus, DropReport& drops, std::string& told_erro
   spdlog::error("{}", told_error);
 }
 
+void log_state(const bus::Health& health, StateLog& states, std::int64_t now_us) {
+  using State = bus::Health::State;
+  const auto line = states.due(health.state(), health.message(), now_us);
+  if (!line) return;
+  const auto level = line->state == State::kError     ? spdlog::level::err
+                     : line->state == State::kWarning ? spdlog::level::warn
+                                                      : spdlog::level::info;
+  spdlog::log(level, "{}", line->text);
+}
+
 // False: the bus ended before anyone asked for it.
 bool run_until_stopped(bus::Bus& bus, bus::Health& health, RunningService& service) {
   const Clock clock;
   DropReport drops;
+  StateLog states;
   std::string told_error;
   bool open = true;
   while (open && !g_stop_requested) {
@@ -81,6 +93,7 @@ bool run_until_stopped(bus::Bus& bus, bus::Health& health, RunningService& servi
     if (const auto message = health.due(now_us, bus.counters()))
       bus.publish(bus::kHealth, *message);
     log_troubles(bus, drops, told_error, now_us);
+    log_state(health, states, now_us);
   }
   service.stop();
   return open;

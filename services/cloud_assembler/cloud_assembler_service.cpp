@@ -80,29 +80,31 @@ void CloudAssemblerService::tick(std::int64_t now_us) {
 
 void CloudAssemblerService::tell_state(std::int64_t now_us) {
   using State = bus::Health::State;
-  if (laser_.is_silent(now_us))
-    return health_.set_state(State::kError, "no LASER: is laser_driver running?");
-  if (mirror_.is_silent(now_us))
-    return health_.set_state(State::kError, "no MIRROR: is mirror_monitor running?");
-  if (!mirror_state_.angle_known)
-    return health_.set_state(State::kError, "mirror's angle not known: " + mirror_state_.reason);
+  const std::string why_none = why_no_clouds(now_us);
+  const bool goes_on = why_none.empty();
+  const bool is_doubtful = goes_on && mirror_state_.state == MirrorState::State::kFault;
+  health_.raise("clouds", State::kError, why_none);
+  health_.raise("mirror", State::kWarning, is_doubtful ? "mirror: " + mirror_state_.reason : "");
+  health_.raise("lines", State::kWarning,
+                !goes_on || line_share_ >= kGoodLineShare
+                    ? ""
+                    : fmt::format("the last sweep had only {:.0f} % of its lines: see "
+                                  "LASER/missing and the other counters",
+                                  100.0 * line_share_));
+}
+
+// The first cause alone: what comes after it follows from it.
+std::string CloudAssemblerService::why_no_clouds(std::int64_t now_us) const {
+  if (laser_.is_silent(now_us)) return "no LASER: is laser_driver running?";
+  if (mirror_.is_silent(now_us)) return "no MIRROR: is mirror_monitor running?";
+  if (!mirror_state_.angle_known) return "mirror's angle not known: " + mirror_state_.reason;
   if (config_.use_odometry && odometry_.is_silent(now_us))
-    return health_.set_state(State::kError,
-                             "no ODOMETRY, so no clouds: is the robot base running? Without one "
-                             "set use_odometry = false");
+    return "no ODOMETRY, so no clouds: is the robot base running? Without one set use_odometry = "
+           "false";
   if (used_.is_silent(now_us))
-    return health_.set_state(
-        State::kError,
-        fmt::format("no line can be used{}: do the times of LASER, MIRROR and ODOMETRY agree?",
-                    drop_reason()));
-  if (mirror_state_.state == MirrorState::State::kFault)
-    return health_.set_state(State::kWarning, "mirror: " + mirror_state_.reason);
-  if (line_share_ < kGoodLineShare)
-    return health_.set_state(State::kWarning,
-                             fmt::format("the last sweep had only {:.0f} % of its lines: see "
-                                         "LASER/missing and the other counters",
-                                         100.0 * line_share_));
-  health_.set_state(State::kOk);
+    return fmt::format("no line can be used{}: do the times of LASER, MIRROR and ODOMETRY agree?",
+                       drop_reason());
+  return {};
 }
 
 std::string CloudAssemblerService::drop_reason() const {

@@ -39,6 +39,7 @@ class CloudAssemblerService {
   void take_odometry(const pose_t& message);
   void publish(const scanner::Assembly& assembly);
   void tell_state(std::int64_t now_us);
+  std::string why_no_clouds(std::int64_t now_us) const;
   std::string drop_reason() const;
 
   bus::Bus& bus_;

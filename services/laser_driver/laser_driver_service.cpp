@@ -24,19 +24,6 @@ std::unique_ptr<serial::Port> open_serial(const std::string& path) {
   return port;
 }
 
-// What a person should know, of a laser that sends; empty when all is well.
-std::string worry(const LaserReader::State& state, const std::string& port) {
-  const std::string laser = "the LMS 200 on " + port;
-  if (state.polluted) return laser + " needs its front window cleaned";
-  if (state.dazzled > kDazzled)
-    return fmt::format("{} is dazzled in {:.0f} % of its beams", laser, 100.0 * state.dazzled);
-  if (state.lost > 0)
-    return fmt::format(
-        "{} scans of {} were lost or refused in the last second; check cable, adapter and load",
-        state.lost, laser);
-  return {};
-}
-
 }  // namespace
 
 LaserDriverService::LaserDriverService(bus::Bus& bus, bus::Health& health,
@@ -60,18 +47,22 @@ void LaserDriverService::tell(const LaserReader::State& state) {
   using S = bus::Health::State;
   health_.count("jitter_us", state.jitter_us - told_jitter_us_);
   told_jitter_us_ = state.jitter_us;
-  if (state.failed) {
-    health_.set_state(S::kError, state.message);
-  } else if (!state.connected) {
-    health_.set_state(S::kWarning, "looking for the LMS 200 on " + port_);
-  } else {
-    const std::string message = worry(state, port_);
-    health_.set_state(message.empty() ? S::kOk : S::kWarning, message);
-  }
-  if (state.message.empty() || state.message == logged_) return;
-  logged_ = state.message;
-  if (state.failed) spdlog::warn("{}", state.message);
-  if (state.connected) spdlog::info("reads {}", state.message);
+  const std::string searching = state.connected ? "" : "looking for the LMS 200 on " + port_;
+  health_.raise("device", state.failed ? S::kError : S::kWarning,
+                state.failed ? state.message : searching);
+  const auto warn = [&](const char* key, bool holds, const std::string& sentence) {
+    health_.raise(key, S::kWarning, state.connected && holds ? sentence : "");
+  };
+  const std::string laser = "the LMS 200 on " + port_;
+  warn("window", state.polluted, laser + " needs its front window cleaned");
+  warn("dazzle", state.dazzled > kDazzled,
+       fmt::format("{} is dazzled in {:.0f} % of its beams", laser, 100.0 * state.dazzled));
+  warn("loss", state.lost > 0,
+       fmt::format("{} scans of {} were lost or refused in the last second; check cable, adapter "
+                   "and load",
+                   state.lost, laser));
+  if (state.connected && state.message != logged_) spdlog::info("reads {}", state.message);
+  logged_ = state.connected ? state.message : "";
 }
 
 }  // namespace voxlist::services

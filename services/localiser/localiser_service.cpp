@@ -131,10 +131,7 @@ void LocaliserService::localise(const Cloud& cloud) {
   message.elapsed_us = static_cast<std::int32_t>(
       std::chrono::duration_cast<std::chrono::microseconds>(Clock::now() - start).count());
   health_.count(std::string("state/") + name(result.state));
-  health_.set_state(result.tracking() ? bus::Health::State::kOk : bus::Health::State::kWarning,
-                    result.tracking() ? ""
-                    : held            ? name(result.state)
-                                      : "waits for a map: is the mapper running?");
+  tell(result.state);
   T_map_odom_.reset();
   unanswered_utime_us_.reset();
   unanswered_since_us_.reset();
@@ -147,6 +144,14 @@ void LocaliserService::localise(const Cloud& cloud) {
     last_pose_.reset();
   }
   bus_.publish(bus::kLocalisation, message);
+}
+
+void LocaliserService::tell(matching::LocalisationState state) {
+  using State = bus::Health::State;
+  const bool has_map = assembler_.held().has_value();
+  const bool is_sure = state == matching::LocalisationState::kTracking;
+  health_.raise("map", State::kWarning, has_map ? "" : "waits for a map: is the mapper running?");
+  health_.raise("pose", State::kWarning, is_sure || !has_map ? "" : name(state));
 }
 
 void LocaliserService::publish_pose(std::int64_t utime_us, const Pose2& pose) {

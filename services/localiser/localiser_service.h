@@ -63,6 +63,7 @@ class LocaliserService {
   void request_map(std::int64_t now_us);
   bool map_is_due(std::int64_t now_us) const;
   void localise(const Cloud& cloud);
+  void tell(matching::LocalisationState state);
   void publish_pose(std::int64_t utime_us, const Pose2& pose);
 
   bus::Bus& bus_;

@@ -83,7 +83,7 @@ void MapperService::load() {
                                folder_ / (std::string(mapping::kKeyframeFile) + ".damaged"),
                                std::filesystem::copy_options::overwrite_existing);
     store_ = std::make_unique<mapping::MapStore>(folder_, map_id_, builder_.keyframes());
-    health_.set_state(bus::Health::State::kWarning, stored.warning);
+    health_.raise("damage", bus::Health::State::kWarning, stored.warning);
   }
 }
 
@@ -184,10 +184,10 @@ void MapperService::store_keyframes() {
   try {
     for (; stored_ < builder_.keyframes().size(); ++stored_)
       store_->append(builder_.keyframes()[stored_]);
-    health_.set_state(bus::Health::State::kOk);
+    health_.clear("append");
   } catch (const io::FileError& error) {
     health_.count("save_failed");
-    health_.set_state(bus::Health::State::kError, error.what());
+    health_.raise("append", bus::Health::State::kError, error.what());
   }
 }
 
@@ -210,9 +210,10 @@ void MapperService::sync() {
   try {
     store_->sync();
     synced_ = stored_;
+    health_.clear("sync");
   } catch (const io::FileError& error) {
     health_.count("save_failed");
-    health_.set_state(bus::Health::State::kError, error.what());
+    health_.raise("sync", bus::Health::State::kError, error.what());
   }
 }
 
@@ -223,9 +224,10 @@ void MapperService::save() {
   try {
     mapping::write_map_views(folder_, builder_.map().occupied, trajectory_);
     health_.count("saved");
+    health_.clear("views");
   } catch (const io::FileError& error) {
     health_.count("save_failed");
-    health_.set_state(bus::Health::State::kError, error.what());
+    health_.raise("views", bus::Health::State::kError, error.what());
   }
 }
 

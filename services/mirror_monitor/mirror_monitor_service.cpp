@@ -1,7 +1,5 @@
 #include "services/mirror_monitor/mirror_monitor_service.h"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -99,20 +97,13 @@ void MirrorMonitorService::count() {
 
 void MirrorMonitorService::tell() {
   using S = bus::Health::State;
-  const Trouble trouble{last_ ? std::optional(clock_.trouble()) : std::nullopt,
-                        edges_ ? edges_->trouble() : ""};
-  const S mirror = last_ ? how_bad(last_->state) : S::kWarning;
-  const S device = trouble.device.empty() ? S::kOk : S::kWarning;
+  const std::string of_clock = edges_ ? edges_->trouble() : "";
   const std::string of_mirror = last_ ? last_->reason : "no LASER yet: does laser_driver run?";
+  const S mirror = last_ ? how_bad(last_->state) : S::kWarning;
   // The device explains a mirror that is no worse than it: then its sentence is enough.
-  std::string message = trouble.device;
-  if (device == S::kOk) message = of_mirror;
-  if (device != S::kOk && mirror > device) message = of_mirror + "; " + trouble.device;
-  health_.set_state(std::max(mirror, device), message);
-  if (trouble == logged_) return;
-  logged_ = trouble;
-  if (mirror == S::kOk && device == S::kOk) return spdlog::info("the mirror's angle is known");
-  spdlog::warn("{}", message);
+  const bool is_explained = !of_clock.empty() && mirror <= S::kWarning;
+  health_.raise("clock", S::kWarning, of_clock);
+  health_.raise("mirror", mirror, is_explained ? "" : of_mirror);
 }
 
 }  // namespace voxlist::services

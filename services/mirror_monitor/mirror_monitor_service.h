@@ -42,14 +42,6 @@ class MirrorMonitorService {
   void tick(std::int64_t now_us);
 
  private:
-  // What is wrong. Its sentences have durations, which change all the time; it is logged when it
-  // changes itself.
-  struct Trouble {
-    std::optional<scanner::MirrorTrouble> mirror;  // none: there was no line yet
-    std::string device;                            // the clock's, see EdgeSource::trouble()
-    bool operator==(const Trouble&) const = default;
-  };
-
   void take(const planar_lidar_t& message);
   void read_edges();
   void count();
@@ -63,7 +55,6 @@ class MirrorMonitorService {
   std::int64_t now_us_ = 0;
   std::optional<std::int64_t> arrival_us_;
   std::map<std::string, std::int64_t> counted_;
-  std::optional<Trouble> logged_;
 };
 
 }  // namespace voxlist::services

@@ -1,7 +1,6 @@
 #include "services/octomap_export/octomap_export_service.h"
 
 #include <fmt/core.h>
-#include <spdlog/spdlog.h>
 
 #include <exception>
 #include <filesystem>
@@ -106,8 +105,6 @@ void OctomapExportService::save(std::int64_t now_us) {
     health_.count("failed_saves");
   }
   saving_ = {!error.empty(), now_us};
-  if (error != save_error_ && error.empty()) spdlog::info("files are written again");
-  if (error != save_error_ && !error.empty()) spdlog::error("{}", error);
   save_error_ = error;
 }
 
@@ -120,10 +117,11 @@ void OctomapExportService::write_files() const {
 void OctomapExportService::report() {
   using State = bus::Health::State;
   const auto missing = queue_.missing();
-  if (!save_error_.empty()) return health_.set_state(State::kError, save_error_);
-  if (!missing) return health_.set_state(State::kOk);
-  if (*missing == 0) return health_.set_state(State::kOk, "waits for the map's first keyframe");
-  health_.set_state(State::kWarning, fmt::format("waits for keyframe {}", *missing));
+  health_.raise("save", State::kError, save_error_);
+  if (!missing) return health_.clear("keyframes");
+  if (*missing == 0)
+    return health_.raise("keyframes", State::kOk, "waits for the map's first keyframe");
+  health_.raise("keyframes", State::kWarning, fmt::format("waits for keyframe {}", *missing));
 }
 
 }  // namespace voxlist::services

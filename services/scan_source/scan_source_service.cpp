@@ -85,11 +85,10 @@ void ScanSourceService::publish_scan(std::size_t scan) try {
 }
 
 void ScanSourceService::say_how_it_went() {
-  std::string message = config_.loop ? "" : "all scans are out";
-  if (unreadable_ > 0)
-    message += fmt::format("{}{} could not be read", message.empty() ? "" : ", ", unreadable_);
-  health_.set_state(unreadable_ > 0 ? bus::Health::State::kWarning : bus::Health::State::kOk,
-                    message);
+  using State = bus::Health::State;
+  health_.raise("end", State::kOk, config_.loop ? "" : "all scans are out");
+  health_.raise("unreadable", State::kWarning,
+                unreadable_ > 0 ? fmt::format("{} scan(s) could not be read", unreadable_) : "");
 }
 
 }  // namespace voxlist::services

@@ -67,7 +67,7 @@ void SimulatorService::tick(std::int64_t now_us) {
   while (next_ && static_cast<double>(utime_us(*next_)) <= run_us) {
     publish(*next_);
     next_ = run_.next();
-    if (!next_) health_.set_state(bus::Health::State::kOk, "the tour is over");
+    if (!next_) health_.raise("end", bus::Health::State::kOk, "the tour is over");
   }
   wait_for_next(now_us);
 }

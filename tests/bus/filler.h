@@ -79,6 +79,7 @@ class Filler {
   }
 
   void fill(counter_t& m) { fill_all(m.name, m.count); }
+  void fill(gauge_t& m) { fill_all(m.name, m.value); }
   void fill(pose_mode_t& m) { fill_all(m.pose, m.covariance, m.overlap, m.probability); }
   void fill(voxel_block_t& m) { fill_all(m.x, m.y, m.z, m.bits); }
   void fill(map_request_t& m) { fill_all(m.utime, m.want, m.first); }
@@ -86,8 +87,9 @@ class Filler {
   void fill(pose_t& m) { fill_all(m.utime, m.pos, m.vel, m.orientation, m.rotation_rate, m.accel); }
 
   void fill(health_t& m) {
-    fill_all(m.utime, m.service, m.pid, m.state, m.message);
+    fill_all(m.utime, m.service, m.version, m.pid, m.state, m.message);
     list(m.n_counters, m.counters);
+    list(m.n_gauges, m.gauges);
     fill_all(m.latency_p50_ms, m.latency_p99_ms, m.latency_max_ms);
   }
 

@@ -5,6 +5,7 @@
 #include <voxlist/health_t.hpp>
 
 #include "voxlist/bus/wire.h"
+#include "voxlist/system/version.h"
 
 namespace voxlist::bus {
 namespace {
@@ -19,7 +20,7 @@ TEST(Health, IsDueOnceASecond) {
 
 TEST(Health, TellsStateMessageAndCounters) {
   Health health("mapper");
-  health.set_state(Health::State::kWarning, "no clouds");
+  health.raise("clouds", Health::State::kWarning, "no clouds");
   health.count("late_cloud");
   health.count("late_cloud", 2);
   const auto message = health.due(7, {{"CLOUD/received", 5}});
@@ -33,6 +34,52 @@ TEST(Health, TellsStateMessageAndCounters) {
   EXPECT_EQ(message->counters[0].name, "late_cloud");
   EXPECT_EQ(message->counters[0].count, 3);
   EXPECT_EQ(message->counters[1].name, "CLOUD/received");
+  EXPECT_EQ(message->n_gauges, 0);
+  EXPECT_EQ(message->version, version());
+  EXPECT_EQ(check_lengths(*message), Fault::kNone);
+}
+
+TEST(Health, TellsAllConditionsTheWorstFirst) {
+  Health health("mapper");
+  health.raise("clouds", Health::State::kWarning, "no clouds");
+  health.raise("disk", Health::State::kError, "the disk is full");
+  health.raise("map", Health::State::kOk, "waits");
+  EXPECT_EQ(health.state(), Health::State::kError);
+  EXPECT_EQ(health.message(), "the disk is full; no clouds; waits");
+  health.clear("disk");
+  EXPECT_EQ(health.state(), Health::State::kWarning);
+  EXPECT_EQ(health.message(), "no clouds; waits");
+  health.clear("clouds");
+  health.clear("map");
+  EXPECT_EQ(health.state(), Health::State::kOk);
+  EXPECT_EQ(health.message(), "");
+}
+
+TEST(Health, AConditionThatIsRaisedAgainReplacesItself) {
+  Health health("mapper");
+  health.raise("disk", Health::State::kError, "the disk is full");
+  health.raise("disk", Health::State::kWarning, "the disk is nearly full");
+  EXPECT_EQ(health.state(), Health::State::kWarning);
+  EXPECT_EQ(health.message(), "the disk is nearly full");
+  health.raise("disk", Health::State::kError, "");
+  EXPECT_EQ(health.state(), Health::State::kOk) << "an empty sentence clears";
+}
+
+TEST(Health, TellsOneLineThatCanBeEncoded) {
+  Health health("mapper");
+  health.raise("disk", Health::State::kError, std::string("a\nb\0c", 5));
+  EXPECT_EQ(health.message(), "a b c");
+  EXPECT_EQ(check_lengths(*health.due(0)), Fault::kNone);
+}
+
+TEST(Health, TellsGaugesAsTheyAreNow) {
+  Health health("mapper");
+  health.gauge("memory_MB", 20.0);
+  health.gauge("memory_MB", 21.5);
+  const auto message = health.due(0);
+  ASSERT_EQ(message->n_gauges, 1);
+  EXPECT_EQ(message->gauges[0].name, "memory_MB");
+  EXPECT_EQ(message->gauges[0].value, 21.5);
   EXPECT_EQ(check_lengths(*message), Fault::kNone);
 }
 

@@ -146,7 +146,7 @@ TEST_F(ScanSource, GoesOnPastADamagedFile) {
   EXPECT_EQ(clouds_[1].utime, 2 * kSecond_us);
   const health_t health = *health_.due(kStart_us);
   EXPECT_EQ(health.state, health_t::STATE_WARNING);
-  EXPECT_EQ(health.message, "all scans are out, 1 could not be read");
+  EXPECT_EQ(health.message, "1 scan(s) could not be read; all scans are out");
   ASSERT_EQ(health.n_counters, 1);
   EXPECT_EQ(health.counters[0].name, "unreadable_scans");
   EXPECT_EQ(health.counters[0].count, 1);

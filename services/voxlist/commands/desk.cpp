@@ -6,6 +6,7 @@
 
 #include "services/voxlist/commands/command.h"
 #include "services/voxlist/output/console.h"
+#include "voxlist/system/version.h"
 
 namespace voxlist::desk {
 namespace {
@@ -29,7 +30,7 @@ int explain(const CLI::App& program, const CLI::ParseError& error, Console& cons
 int run_desk(std::vector<std::string> arguments, Console& console) {
   CLI::App program("Maps from recorded 3D scans, at the desk: the services' own classes.",
                    "voxlist");
-  program.set_version_flag("--version", VOXLIST_VERSION);
+  program.set_version_flag("--version", version());
   program.require_subcommand(1);
   Command chosen;
   add_import(program, chosen);

@@ -11,6 +11,7 @@
 #include "voxlist/io/files/file.h"
 #include "voxlist/mapping/map_store.h"
 #include "voxlist/mapping/map_views.h"
+#include "voxlist/system/version.h"
 
 namespace voxlist::desk {
 namespace {
@@ -65,7 +66,7 @@ void MapFiles::write_summary(const MapRun& run, const RunFigures& figures) {
       figures.elapsed_seconds > 0.0 ? figures.seconds / figures.elapsed_seconds : 0.0;
   nlohmann::ordered_json json = {
       {"input", figures.input},
-      {"version", VOXLIST_VERSION},
+      {"version", version()},
       {"scans", figures.scans},
       {"placed", run.trajectory().size()},
       {"lost", run.lost()},
