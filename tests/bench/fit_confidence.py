@@ -2,6 +2,8 @@
 """Fits the coefficients of common/matching/localisation/confidence.cpp to what bench_confidence wrote.
 
 Usage: bench_confidence 40 0 1 5 scans.csv; fit_confidence.py scans.csv...
+       fit_confidence.py --as-built scans.csv   prints the probability of each mode, a scan in a line,
+                                                with the coefficients that stand in confidence.cpp
 
 Two logistic models by maximum likelihood, each damped a little towards 0, in logarithms of what places
 leave unexplained, u = log(1 - support + kNearSlack) or kEvenSlack:
@@ -14,11 +16,21 @@ Scans are split by seed to show how the fit carries over to buildings that it ha
 """
 import csv
 import math
+import pathlib
+import re
 import sys
 from collections import defaultdict
 
-NEAR_SLACK = 0.05
-EVEN_SLACK = 0.02
+SOURCE = pathlib.Path(__file__).parents[2] / "common/matching/localisation/confidence.cpp"
+
+
+def constants():
+    """Name -> value of the constants in confidence.cpp, their only home."""
+    return {name: float(value) for name, value in re.findall(r"\b(k\w+) = (-?[\d.]+)", SOURCE.read_text())}
+
+
+NEAR_SLACK = constants()["kNearSlack"]
+EVEN_SLACK = constants()["kEvenSlack"]
 DAMPING = 1e-3
 
 
@@ -124,7 +136,18 @@ def report(scans, power, w, limit=0.996):
               f"most said of a wrong one {worst:.4f}")
 
 
+def print_as_built(scans):
+    k = constants()
+    w = k["kFoundBias"], k["kFoundSupport"], k["kFoundRival"]
+    for _, modes in sorted(scans.items()):
+        found = sigmoid(sum(a * b for a, b in zip(w, features(modes))))
+        print(*(found * share for share in shares(modes, k["kPlacePower"])))
+
+
 def main():
+    if sys.argv[1:2] == ["--as-built"]:
+        print_as_built(read(sys.argv[2:]))
+        return
     scans = read(sys.argv[1:])
 
     def run(name, train, test):

@@ -78,6 +78,7 @@ TEST_F(Import, KeepsEveryPointOriginAndPose) {
     EXPECT_EQ(received.cloud->points, written.points);
     EXPECT_EQ(received.cloud->origins, written.origins);
   }
+  EXPECT_EQ(scan, static_cast<std::size_t>(test::kScans));
 }
 
 TEST_F(Import, WritesWhatLcmReads) {
@@ -95,6 +96,7 @@ TEST_F(Import, WritesWhatLcmReads) {
   }
   lcm_eventlog_destroy(log);
   EXPECT_EQ(count, events.size());
+  EXPECT_GT(count, 50u * test::kScans);
 }
 
 TEST_F(Import, LeavesOutADamagedScanAndSaysSo) {

@@ -77,12 +77,14 @@ TEST(ServiceReadme, ListsTheSettingsWithTheirDefaults) {
 }
 
 TEST(ServiceReadme, IsThereAndCheckedForEveryService) {
+  EXPECT_EQ(service_folders().size(), kServiceTables.size());
   for (const std::string& service : service_folders())
     EXPECT_TRUE(kServiceTables.contains(service)) << service << ": add it to kServiceTables";
 }
 
 TEST(ServiceReadme, OfAllServicesHasARowForEach) {
   const std::string map = read(kServices / "README.md");
+  ASSERT_FALSE(service_folders().empty());
   for (const std::string& service : service_folders())
     EXPECT_NE(map.find("| [" + service + "](" + service + "/README.md) |"), std::string::npos)
         << "services/README.md has no row for " << service;

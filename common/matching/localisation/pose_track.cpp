@@ -46,8 +46,9 @@ PoseTrack::PoseTrack(const Cloud& cloud, const std::optional<Pose2>& T_odom_base
 Pose2 PoseTrack::predict(std::int64_t now_us, const std::optional<Pose2>& T_odom_now) const {
   if (T_odom_base_ && T_odom_now) return pose_ * (T_odom_base_->inverse() * *T_odom_now);
   const double dt_s = static_cast<double>(now_us - utime_us_) * 1e-6;
-  // Only over steps alike: after a gap the old speed says nothing.
-  return step_s_ > 0.0 && dt_s > 0.0 && dt_s < 2.0 * step_s_ ? pose_ * step_ : pose_;
+  // Only over a step about as long as the last: a pause, now or then, says nothing of it.
+  const bool alike = dt_s > 0.5 * step_s_ && dt_s < 2.0 * step_s_;
+  return alike ? pose_ * step_ : pose_;
 }
 
 double PoseTrack::surprise(const Pose2& pose, const Pose2& predicted, bool odometry_now) const {

@@ -94,8 +94,12 @@ TEST(CoarseSweep, CountsUpToTheLastPlane) {
 
 TEST(CoarseSweep, CountsNothingForNoCells) {
   const CoarseMap map(TolerantMap(random_map(1, 20, 5), 0.25, 4.0), 4.0);
-  for (const Instructions instructions : instruction_sets())
-    for (const std::uint64_t word : coarse_sweep(map, {}, instructions).planes) EXPECT_EQ(word, 0u);
+  for (const Instructions instructions : instruction_sets()) {
+    const NodeCounts counts = coarse_sweep(map, {}, instructions);
+    EXPECT_EQ(counts.planes.size(), kCountPlanes * counts.words);
+    EXPECT_GT(counts.words, 0u);
+    for (const std::uint64_t word : counts.planes) EXPECT_EQ(word, 0u);
+  }
 }
 
 TEST(CoarseMap, GridsHoldTheCellsAheadUpToTheirWidth) {

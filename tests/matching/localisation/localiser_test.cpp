@@ -108,9 +108,11 @@ TEST(Localiser, FindsScansInTheWholeMapOrSaysThatItIsNotSure) {
 }
 
 TEST(Localiser, IsNotSureOfAScanOfAnotherBuilding) {
-  const OccupancyMap map = map_at_truth(drive(3, 40.0));
-  const Drive other = drive(1003, 20.0);
+  const Drive own = drive(3, 40.0), other = drive(1003, 20.0);
+  const OccupancyMap map = map_at_truth(own);
   Localiser localiser(map);
+  EXPECT_TRUE(localiser.locate(own.clouds.at(20)).tracking());
+  ASSERT_GE(other.clouds.size(), 15U);
   for (std::size_t i = 0; i < other.clouds.size(); i += 5) {
     EXPECT_FALSE(localiser.locate(other.clouds[i]).tracking()) << "scan " << i;
   }
@@ -125,6 +127,25 @@ TEST(Localiser, SearchesTheWholeMapAfterItHasForgotten) {
   EXPECT_FALSE(localiser.localise(run.clouds[i]).searched_whole_map);
   localiser.forget();
   EXPECT_TRUE(localiser.localise(run.clouds[i]).searched_whole_map);
+}
+
+TEST(Localiser, SaysHowSureItIsWhileItTracks) {
+  const Drive run = drive(4, 30.0);
+  const OccupancyMap map = map_at_truth(run);
+  Localiser localiser(map);
+  int tracked = 0;
+  for (std::size_t i = 0; i < run.clouds.size(); ++i) {
+    const Localisation result = localiser.localise(run.clouds[i], run.odometry[i]);
+    if (!result.tracking() || result.searched_whole_map) continue;
+    ++tracked;
+    EXPECT_GT(result.confidence, 0.9) << i;
+    EXPECT_LT(result.confidence, 1.0) << i;
+    double sum = 0.0;
+    for (const PoseMode& mode : result.modes) sum += mode.probability;
+    EXPECT_EQ(result.modes.at(0).probability, result.confidence) << i;
+    EXPECT_LE(sum, 1.0) << i;
+  }
+  EXPECT_GE(tracked, 20);
 }
 
 TEST(Localiser, NoticesThatItWasCarriedElsewhere) {
@@ -175,6 +196,7 @@ TEST(Localiser, GivesTheSameBitsForAnyNumberOfThreads) {
     Localiser localiser(map);
     results.push_back(localiser.locate(run.clouds[6]));
   }
+  ASSERT_FALSE(results[0].modes.empty());
   for (const auto& result : results) {
     ASSERT_EQ(result.modes.size(), results[0].modes.size());
     for (std::size_t m = 0; m < result.modes.size(); ++m) {

@@ -31,5 +31,13 @@ TEST(ScanMotion, IsNothingWithoutPointsToGoBy) {
   EXPECT_FALSE(scan_motion(scan_at(1, {}), Cloud{}, kWindow, {}));
 }
 
+// Two scans of the same place, seen in headings that the window does not reach.
+TEST(ScanMotion, IsNothingWhereScansDoNotFitTogether) {
+  const Pose2 start{1.0, 0.1, 0.3}, turned{0.0, 0.0, 0.7};
+  const Cloud before = scan_at(1, start), now = scan_at(1, start * turned);
+  EXPECT_TRUE(scan_motion(before, now, {{}, 0.3, 0.3, 0.8}, {}));
+  EXPECT_FALSE(scan_motion(before, now, {{}, 0.3, 0.3, 0.1}, {}));
+}
+
 }  // namespace
 }  // namespace voxlist::matching
