@@ -81,6 +81,7 @@ CsvTable::CsvTable(const std::filesystem::path& path) : path_(path) {
       }
     } else if (!line.starts_with('#')) {
       rows_.push_back({line_number, split(line, separator)});
+      check_length(rows_.size() - 1);
     }
   }
   if (names_.empty()) {
@@ -123,6 +124,22 @@ double CsvTable::number(std::size_t row, std::size_t column) const {
     throw error(row, column, "the number must be finite");
   }
   return value;
+}
+
+bool CsvTable::is_not_finite(std::size_t row, std::size_t column) const {
+  try {
+    return !std::isfinite(parse_number(text(row, column)));
+  } catch (const FormatError&) {
+    return false;
+  }
+}
+
+// Empty cells at the end hold nothing.
+void CsvTable::check_length(std::size_t row) const {
+  std::size_t cells = rows_[row].cells.size();
+  while (cells > names_.size() && rows_[row].cells[cells - 1].empty()) --cells;
+  if (cells > names_.size())
+    throw error(row, fmt::format("{} cells instead of {}", cells, names_.size()));
 }
 
 FileError CsvTable::error(std::size_t row, const std::string& problem) const {

@@ -19,7 +19,8 @@ namespace voxlist::io {
 /// its line and column.
 class CsvTable {
  public:
-  /// Throws FileError when the file cannot be read or has no header.
+  /// Throws FileError when the file cannot be read, has no header, or has a row with more cells
+  /// than the header.
   explicit CsvTable(const std::filesystem::path& path);
 
   std::size_t rows() const { return rows_.size(); }
@@ -36,6 +37,9 @@ class CsvTable {
   /// A cell's number. Throws FileError when it is none or not finite.
   double number(std::size_t row, std::size_t column) const;
 
+  /// Whether a cell holds nan or inf.
+  bool is_not_finite(std::size_t row, std::size_t column) const;
+
   /// The error to throw for a row, or for a cell of it.
   FileError error(std::size_t row, const std::string& problem) const;
   FileError error(std::size_t row, std::size_t column, const std::string& problem) const;
@@ -45,6 +49,8 @@ class CsvTable {
     std::size_t line;
     std::vector<std::string> cells;
   };
+
+  void check_length(std::size_t row) const;
 
   std::filesystem::path path_;
   std::vector<std::string> names_;

@@ -7,13 +7,12 @@
 #include <set>
 
 #include "voxlist/geometry/angle.h"
+#include "voxlist/geometry/time_limit.h"
 #include "voxlist/io/poses/csv_table.h"
+#include "voxlist/io/poses/number_rows.h"
 
 namespace voxlist::io {
 namespace {
-
-// 9e15 us is the year 2255: what is beyond is a wrong unit. Doubles hold all integers up to there.
-constexpr double kMaxTimeUs = 9e15;
 
 /// A column of numbers in a fixed unit.
 struct Quantity {
@@ -33,11 +32,22 @@ std::optional<Quantity> angle(const CsvTable& csv, std::string_view name) {
   return radians ? radians : quantity(csv, {base + "_deg"}, kRadPerDeg);
 }
 
+// EuRoC calls x p_RS_R_x [m].
 std::optional<Quantity> length(const CsvTable& csv, std::string_view name) {
-  return quantity(csv, {name, std::string(name) + "_m"});
+  const std::string base(name), in_euroc = "p_rs_r_" + base;
+  return quantity(csv, {base, base + "_m", in_euroc, in_euroc + "_m"});
+}
+
+// EuRoC calls qx q_RS_x [].
+std::optional<Quantity> quaternion_part(const CsvTable& csv, char name) {
+  return quantity(csv, {std::string("q") + name, std::string("q_rs_") + name});
 }
 
 std::optional<Quantity> time(const CsvTable& csv) {
+  const auto ns = csv.column({"p_rs_r_x", "p_rs_r_x_m"})
+                      ? quantity(csv, {"timestamp", "timestamp_ns"}, 1e-3)
+                      : quantity(csv, {"utime_ns", "timestamp_ns", "time_ns", "t_ns"}, 1e-3);
+  if (ns) return ns;
   const auto us = quantity(csv, {"utime", "utime_us", "timestamp_us", "time_us", "t_us"});
   return us ? us : quantity(csv, {"t", "t_s", "time", "time_s", "timestamp", "timestamp_s"}, 1e6);
 }
@@ -54,10 +64,10 @@ struct Columns {
         roll(angle(csv, "roll")),
         pitch(angle(csv, "pitch")),
         yaw(angle(csv, "yaw")),
-        qw(quantity(csv, {"qw"})),
-        qx(quantity(csv, {"qx"})),
-        qy(quantity(csv, {"qy"})),
-        qz(quantity(csv, {"qz"})) {
+        qw(quaternion_part(csv, 'w')),
+        qx(quaternion_part(csv, 'x')),
+        qy(quaternion_part(csv, 'y')),
+        qz(quaternion_part(csv, 'z')) {
     if (!file && scan && scan == csv.column({"scan"}) && holds_names(csv, *scan)) {
       std::swap(file, scan);
     }
@@ -81,6 +91,14 @@ class RowReader {
  public:
   RowReader(const CsvTable& csv, const Columns& columns, std::size_t row)
       : csv_(csv), columns_(columns), row_(row) {}
+
+  // nan or inf in each coordinate that the table gives.
+  bool is_unknown() const {
+    const auto has_none = [this](const std::optional<Quantity>& coordinate) {
+      return !coordinate || csv_.is_not_finite(row_, coordinate->column);
+    };
+    return has_none(columns_.x) && has_none(columns_.y) && has_none(columns_.z);
+  }
 
   PoseRow read() const {
     PoseRow result;
@@ -110,9 +128,10 @@ class RowReader {
 
   std::int64_t utime_us() const {
     const double us = value(columns_.utime);
-    if (std::abs(us) > kMaxTimeUs) {
+    if (std::abs(us) > static_cast<double>(kMaxUtime_us)) {
       throw csv_.error(row_, columns_.utime->column,
-                       "is no time in this unit (utime is in microseconds, t in seconds)");
+                       "is no time in this unit (utime is in microseconds, t in seconds; call the "
+                       "column utime_ns if these are nanoseconds)");
     }
     return std::llround(us);
   }
@@ -139,6 +158,11 @@ class RowReader {
 
 }  // namespace
 
+PoseTable read_poses(const std::filesystem::path& path) {
+  if (auto table = read_number_rows(path)) return *std::move(table);
+  return read_pose_csv(path);
+}
+
 PoseTable read_pose_csv(const std::filesystem::path& path) {
   const CsvTable csv(path);
   const Columns columns(csv);
@@ -151,11 +175,17 @@ PoseTable read_pose_csv(const std::filesystem::path& path) {
                   columns.scan.has_value(),
                   columns.file.has_value(),
                   columns.utime.has_value(),
-                  columns.z.has_value()};
+                  columns.z.has_value(),
+                  0};
   std::set<std::int64_t> scans;
   std::set<std::string> files;
   for (std::size_t row = 0; row < csv.rows(); ++row) {
-    table.rows.push_back(RowReader(csv, columns, row).read());
+    const RowReader reader(csv, columns, row);
+    if (reader.is_unknown()) {
+      ++table.unknown;
+      continue;
+    }
+    table.rows.push_back(reader.read());
     const PoseRow& last = table.rows.back();
     if (columns.scan && !scans.insert(last.scan).second) {
       throw csv.error(row, *columns.scan, fmt::format("scan {} comes twice", last.scan));
@@ -172,7 +202,7 @@ PoseTable read_pose_csv(const std::filesystem::path& path) {
 }
 
 PoseTable read_odometry_csv(const std::filesystem::path& path) {
-  PoseTable table = read_pose_csv(path);
+  PoseTable table = read_poses(path);
   if (!table.has_times) {
     throw FileError(path, "odometry needs times, add a column utime (us) or t (s)");
   }

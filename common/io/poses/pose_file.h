@@ -32,7 +32,21 @@ struct PoseTable {
   bool has_times = false;
   /// The table gives z; otherwise z is 0.
   bool has_heights = false;
+  /// Rows left out because their whole position is nan or inf: poses that nobody knows.
+  std::size_t unknown = 0;
 };
+
+/// Reads poses in any form that is known, by the content:
+///
+/// | form | a row |
+/// |---|---|
+/// | table with a header | see read_pose_csv |
+/// | TUM | t x y z qx qy qz qw, t in seconds |
+/// | KITTI | the upper 3 or all 4 rows of the matrix T_map_base, row by row; scan = row from 0 |
+/// | EuRoC | t, x, y, z, qw, qx, qy, qz, ... with its header or without, t in nanoseconds |
+///
+/// Throws FileError as read_pose_csv does.
+PoseTable read_poses(const std::filesystem::path& path);
 
 /// Reads a table of poses by its header; columns may be in any order, others are ignored.
 ///
@@ -41,13 +55,16 @@ struct PoseTable {
 /// | scan number | index, scan (which may hold file names instead), scan_index, scan_number |
 /// | file name | file, filename, file_name, scan_file |
 /// | time in microseconds | utime, utime_us, timestamp_us, time_us, t_us |
-/// | time in seconds, if there is no utime | t, t_s, time, time_s, timestamp, timestamp_s |
-/// | position (m) | x, y, and z or not |
+/// | time in nanoseconds | utime_ns, timestamp_ns, time_ns, t_ns; timestamp of EuRoC |
+/// | time in seconds, if there is no other | t, t_s, time, time_s, timestamp, timestamp_s |
+/// | position (m) | x, y, and z or not; p_rs_r_x, ... |
 /// | heading (rad; degrees with the suffix _deg) | yaw, and roll and pitch or not (R = Rz Ry Rx),
-/// or qx, qy, qz, qw |
+/// or qx, qy, qz, qw, or q_rs_x, ... |
 ///
-/// Throws FileError (with line and column) on: missing columns, no rows, what is not a finite
-/// number, a quaternion more than 1 % off unit length, a scan or file that comes twice.
+/// A row whose position is nan or inf altogether is counted as unknown and left out. Throws
+/// FileError (with line and column) on: missing columns, more cells than columns, no rows, what is
+/// not a finite number, a quaternion more than 1 % off unit length, a scan or file that comes
+/// twice.
 PoseTable read_pose_csv(const std::filesystem::path& path);
 
 /// The same for odometry: the table must give times, and they must not go backwards.

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <string>
 
+#include "voxlist/geometry/time_limit.h"
 #include "voxlist/io/files/atomic_file.h"
 #include "voxlist/io/files/cursor.h"
 #include "voxlist/io/files/file.h"
@@ -14,8 +15,6 @@
 
 namespace voxlist::io {
 namespace {
-
-constexpr double kMaxTimeS = 9e9;
 
 StampedPose3 parse_line(std::string_view line) {
   std::array<double, 8> v{};
@@ -26,7 +25,7 @@ StampedPose3 parse_line(std::string_view line) {
     }
   }
   const auto rotation = unit_quaternion(v[7], v[4], v[5], v[6]);
-  if (!take_word(line).empty() || std::abs(v[0]) > kMaxTimeS) {
+  if (!take_word(line).empty() || std::abs(v[0]) * 1e6 > static_cast<double>(kMaxUtime_us)) {
     throw FormatError("is not \"t x y z qx qy qz qw\" with t in seconds");
   }
   if (!rotation) {
@@ -66,6 +65,12 @@ std::vector<StampedPose3> read_tum(const std::filesystem::path& path) {
       throw FileError(path, fmt::format("line {}: {}", line_number, error.what()));
     }
   }
+  return trajectory;
+}
+
+std::vector<StampedPose3> trajectory_of(const PoseTable& table) {
+  std::vector<StampedPose3> trajectory;
+  for (const PoseRow& row : table.rows) trajectory.push_back({row.utime_us, row.pose});
   return trajectory;
 }
 

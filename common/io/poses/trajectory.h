@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "voxlist/geometry/cloud.h"
+#include "voxlist/io/poses/pose_file.h"
 
 namespace voxlist::io {
 
@@ -11,6 +12,9 @@ namespace voxlist::io {
 /// comments), in the file's order. Throws FileError, with the line, on what is no such line, is not
 /// finite, or is no unit quaternion (1 % off is mended).
 std::vector<StampedPose3> read_tum(const std::filesystem::path& path);
+
+/// A table's poses with their times, in its order.
+std::vector<StampedPose3> trajectory_of(const PoseTable& table);
 
 /// Writes poses in TUM's format, atomically: times to the microsecond, positions and quaternions to
 /// 9 decimals. Throws FileError.

@@ -7,22 +7,25 @@
 
 #include "voxlist/geometry/cloud.h"
 #include "voxlist/io/poses/pose_file.h"
+#include "voxlist/io/scans/row_match.h"
 
 namespace voxlist::io {
 
 /// A folder of recorded scans: scan_*.ply and scan_*.pcd, or every *.ply and *.pcd when none is
-/// named so; beside them, where there, poses.csv (truth, and the source of the scans' times) and
-/// odometry.csv.
+/// named so; beside them, where there, poses.csv (truth, and the source of the scans' times; any
+/// form of read_poses) and odometry.csv. Hidden files, map.ply (which Voxlist makes) and what is no
+/// regular file are no scans.
 ///
 /// A scan's number is its position, from 0, in the natural order of the names (scan_9 before
-/// scan_10). Times come from poses.csv; scans that it leaves out lie evenly between those that it
-/// has, or 1 s apart at the ends. Without poses.csv, or without times in it, scans come once a
-/// second from utime 0.
+/// scan_10). Times come from poses.csv, whose rows belong to scans as match_rows says; scans that
+/// it leaves out lie evenly between those that it has (by the numbers in the names, where there),
+/// or 1 s apart at the ends. Without poses.csv, or without times in it, scans come once a second
+/// from utime 0.
 class ScanFolder {
  public:
   /// Looks at names and tables; scans are read one by one later. Throws FileError when there is no
   /// such folder, there are no scans, a table is damaged or matches no scan, or times do not
-  /// increase with the names.
+  /// increase with the names or are in another unit.
   explicit ScanFolder(const std::filesystem::path& folder);
 
   std::size_t size() const { return files_.size(); }
@@ -39,19 +42,21 @@ class ScanFolder {
   const std::optional<PoseTable>& poses() const { return poses_; }
   const std::optional<PoseTable>& odometry() const { return odometry_; }
 
-  /// For each scan its row in a table, if there is one. By file name where the table has names (the
-  /// extension may differ); else by scan number; a table whose numbers are not positions here, but
-  /// all occur in the file names (scan_100.ply ... and index 100 ...), is matched by these.
-  std::vector<std::optional<std::size_t>> match(const PoseTable& table) const;
+  /// The rows of another table.
+  RowMatch match(const PoseTable& table) const { return match_rows(files_, utimes_us_, table); }
+
+  /// What a person should know of how poses.csv and the scans belong together.
+  const std::vector<std::string>& notes() const { return rows_.notes; }
 
  private:
-  void read_poses(const std::filesystem::path& path);
+  void take_poses(const std::filesystem::path& path);
+  void check_times(const std::filesystem::path& path) const;
 
   std::vector<std::filesystem::path> files_;
   std::vector<std::int64_t> utimes_us_;
   std::optional<PoseTable> poses_;
   std::optional<PoseTable> odometry_;
-  std::vector<std::optional<std::size_t>> rows_;
+  RowMatch rows_;
 };
 
 }  // namespace voxlist::io

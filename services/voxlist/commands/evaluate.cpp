@@ -62,8 +62,8 @@ void tell(const evaluation::TrajectoryErrors& errors, Console& console) {
 }
 
 int run(const EvaluateOptions& options, Console& console) {
-  const auto errors =
-      evaluation::evaluate(io::read_tum(options.trajectory), io::read_pose_csv(options.truth));
+  const auto errors = evaluation::evaluate(io::trajectory_of(io::read_poses(options.trajectory)),
+                                           io::read_poses(options.truth));
   if (!errors) {
     throw io::FileError(
         options.truth, fmt::format("has no pose for any of {}, check that both are of the same run",
@@ -86,7 +86,10 @@ void add_evaluate(CLI::App& program, Command& chosen) {
   const auto options = std::make_shared<EvaluateOptions>();
   command->add_option("TRAJECTORY", options->trajectory, "trajectory.tum of a map folder")
       ->required();
-  command->add_option("POSES", options->truth, "table of the true poses (poses.csv)")->required();
+  command
+      ->add_option("POSES", options->truth,
+                   "table of the true poses (poses.csv, or a file of TUM, KITTI or EuRoC)")
+      ->required();
   command->add_option("-o,--output", options->plot,
                       "the plot to write as PNG, with an SVG of the same name beside it; default "
                       "evaluation.png beside the trajectory");

@@ -119,7 +119,8 @@ void add_options(CLI::App& command, MapOptions& options) {
   command.add_option("-o,--output", options.folder, "map folder; its old map is replaced")
       ->required();
   command.add_option("--use-poses", options.poses,
-                     "table of poses (poses.csv) to put the scans at, instead of localising them");
+                     "table of poses (poses.csv, or a file of TUM, KITTI or EuRoC) to put the "
+                     "scans at, instead of localising them");
   command.add_option("--config", options.config, "the robot's settings (services/robot.toml)");
   command
       .add_option("--octomap-resolution", options.octomap_resolution_m,

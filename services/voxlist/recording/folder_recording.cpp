@@ -10,6 +10,7 @@ class FolderRecording : public Recording {
  public:
   FolderRecording(const std::filesystem::path& folder, Omissions& omissions)
       : omissions_(omissions), folder_(folder), events_(io::events_of(folder_)) {
+    tell(folder_.notes());
     if (events_.front().utime_us < 0) {
       throw io::FileError(folder,
                           "has times before 1970, which no log can hold; let them start at 0");
@@ -35,12 +36,18 @@ class FolderRecording : public Recording {
   }
 
   RowOfScan match(const io::PoseTable& poses) const override {
-    return [rows = folder_.match(poses)](std::int64_t number, std::int64_t) {
+    const io::RowMatch match = folder_.match(poses);
+    tell(match.notes);
+    return [rows = match.rows](std::int64_t number, std::int64_t) {
       return rows[static_cast<std::size_t>(number)];
     };
   }
 
  private:
+  void tell(const std::vector<std::string>& notes) const {
+    for (const std::string& note : notes) omissions_.remark("poses: " + note);
+  }
+
   Record odometry(const io::FolderEvent& event) const {
     const io::PoseRow& row = folder_.odometry()->rows[event.number];
     return OdometryRecord{bus::to_message(StampedPose3{row.utime_us, row.pose})};

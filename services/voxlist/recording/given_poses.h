@@ -14,7 +14,7 @@ class GivenPoses {
  public:
   /// Throws FileError when the file is no table of poses.
   GivenPoses(const std::filesystem::path& path, const ScanInput& input)
-      : table_(io::read_pose_csv(path)), row_of_(input.match(table_)) {}
+      : table_(io::read_poses(path)), row_of_(input.match(table_)) {}
   GivenPoses(const GivenPoses&) = delete;
   GivenPoses& operator=(const GivenPoses&) = delete;
 

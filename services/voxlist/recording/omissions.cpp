@@ -18,6 +18,10 @@ void Omissions::add(const std::string& reason, const std::string& detail) {
     console_.warn(fmt::format("more like this ({}) are only counted", reason));
 }
 
+void Omissions::remark(const std::string& text) {
+  if (told_.insert(text).second) console_.warn(text);
+}
+
 std::int64_t Omissions::total() const {
   std::int64_t sum = 0;
   for (const auto& [reason, count] : counts_) sum += count;

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 
 #include "services/voxlist/output/console.h"
@@ -16,6 +17,10 @@ class Omissions {
   /// Something was left out because of `reason`; `detail` tells a person what and where.
   void add(const std::string& reason, const std::string& detail);
 
+  /// Something that is taken as it is, but that a person should know. Told once, however often it
+  /// comes; not counted.
+  void remark(const std::string& text);
+
   std::int64_t total() const;
   bool empty() const { return counts_.empty(); }
 
@@ -25,6 +30,7 @@ class Omissions {
  private:
   Console& console_;
   std::map<std::string, std::int64_t> counts_;
+  std::set<std::string> told_;
 };
 
 }  // namespace voxlist::desk

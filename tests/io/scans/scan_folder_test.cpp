@@ -100,6 +100,57 @@ TEST(ScanFolder, TakesNumbersInNamesWhenTheTableMeansThose) {
   EXPECT_EQ(ScanFolder(folder.path()).truth(1)->translation().x(), 2.0);
 }
 
+TEST(ScanFolder, GivesScansTheTimesOfTheirRowsWhenAScanIsMissing) {
+  const TemporaryFolder folder;
+  for (const int i : {0, 1, 3, 4, 6}) {
+    put_scan(folder, "scan_" + std::to_string(i) + ".ply", 0.0F);
+  }
+  folder.write("poses.csv",
+               "index,t,x,y,yaw\n0,0,0,0,0\n1,1,1,0,0\n2,2,2,0,0\n3,3,3,0,0\n6,6,6,0,0\n");
+  const ScanFolder scans(folder.path());
+  EXPECT_EQ(scans.truth(2)->translation().x(), 3.0);
+  EXPECT_FALSE(scans.truth(3));
+  EXPECT_EQ(scans.utime_us(3), 4'000'000);
+  EXPECT_EQ(scans.utime_us(4), 6'000'000);
+  EXPECT_EQ(scans.notes(),
+            (std::vector<std::string>{"row 2 has no scan", "scan_4.ply has no row"}));
+}
+
+TEST(ScanFolder, LeavesOutHiddenFilesOurOwnMapAndWhatIsNoFile) {
+  const TemporaryFolder folder;
+  put_scan(folder, "cloud_0.ply", 5.0F);
+  put_scan(folder, "map.ply", 0.0F);
+  folder.write("._cloud_0.ply", "resources of a Mac");
+  folder.write(".scan_3.ply", "");
+  std::filesystem::create_directory(folder / "cloud_1.ply");
+  const ScanFolder scans(folder.path());
+  ASSERT_EQ(scans.size(), 1U);
+  EXPECT_EQ(scans.read(0).points[0].x(), 5.0F);
+}
+
+TEST(ScanFolder, TakesPosesInTheFormsOfOthers) {
+  const TemporaryFolder folder;
+  for (int i = 0; i < 3; ++i) put_scan(folder, "scan_" + std::to_string(i) + ".ply", 0.0F);
+  folder.write("poses.csv",
+               "# timestamp tx ty tz qx qy qz qw\n1604644894.0 0 0 0 0 0 0 1\n"
+               "1604644895.0 0.4 0 0 0 0 0 1\n");
+  const ScanFolder scans(folder.path());
+  EXPECT_EQ(scans.utime_us(2), 1604644896'000000);
+  EXPECT_EQ(scans.truth(1)->translation().x(), 0.4);
+  EXPECT_FALSE(scans.truth(2));
+}
+
+TEST(ScanFolder, SaysThatTimesAreInAnotherUnit) {
+  const TemporaryFolder folder;
+  put_scan(folder, "scan_0.ply", 0.0F);
+  put_scan(folder, "scan_1.ply", 0.0F);
+  folder.write("poses.csv", "index,utime,x,y,yaw\n0,1700000000,0,0,0\n1,1700000001,0,0,0\n");
+  EXPECT_NE(error_of(folder.path()).find("1 us apart: are its times in seconds"),
+            std::string::npos);
+  folder.write("poses.csv", "index,utime,x,y,yaw\n0,0,0,0,0\n1,0,0,0,0\n");
+  EXPECT_NE(error_of(folder.path()).find("all scans the same time"), std::string::npos);
+}
+
 TEST(ScanFolder, SaysWhatIsWrong) {
   const TemporaryFolder folder;
   EXPECT_NE(error_of(folder / "none").find("no folder"), std::string::npos);
