@@ -1,17 +1,9 @@
 #include "voxlist/service/instance_lock.h"
 
-#include <fcntl.h>
 #include <fmt/core.h>
-#include <sys/file.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <cctype>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-#include <stdexcept>
-#include <utility>
 
 namespace voxlist::service {
 namespace {
@@ -29,32 +21,6 @@ std::string as_file_name(std::string text) {
 }
 
 }  // namespace
-
-std::optional<InstanceLock> InstanceLock::take(const std::filesystem::path& file) {
-  const int descriptor = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
-  if (descriptor < 0)
-    throw std::runtime_error(fmt::format("{}: {}", file.string(), std::strerror(errno)));
-  InstanceLock lock(descriptor);
-  if (flock(descriptor, LOCK_EX | LOCK_NB) != 0) return std::nullopt;
-  const std::string owner = fmt::format("{}\n", getpid());
-  if (ftruncate(descriptor, 0) != 0 || write(descriptor, owner.data(), owner.size()) < 0) {
-    throw std::runtime_error(fmt::format("{}: {}", file.string(), std::strerror(errno)));
-  }
-  return lock;
-}
-
-InstanceLock::InstanceLock(InstanceLock&& other) noexcept
-    : descriptor_(std::exchange(other.descriptor_, -1)) {}
-
-InstanceLock::~InstanceLock() {
-  if (descriptor_ >= 0) close(descriptor_);
-}
-
-std::string lock_owner(const std::filesystem::path& file) {
-  std::string owner;
-  std::ifstream(file) >> owner;
-  return owner.empty() ? "?" : owner;
-}
 
 std::string lock_name(const std::string& service, const std::string& url,
                       const std::string& prefix) {

@@ -17,6 +17,7 @@
 #include "voxlist/service/instance_lock.h"
 #include "voxlist/service/run_folder.h"
 #include "voxlist/service/state_log.h"
+#include "voxlist/system/file_lock.h"
 
 namespace voxlist::service {
 namespace {
@@ -99,9 +100,9 @@ bool run_until_stopped(bus::Bus& bus, bus::Health& health, RunningService& servi
   return open;
 }
 
-InstanceLock take_lock(const ServiceInfo& info, const bus::BusOptions& options) {
+FileLock take_lock(const ServiceInfo& info, const bus::BusOptions& options) {
   const auto file = run_folder() / lock_name(info.name, options.url, options.prefix);
-  auto lock = InstanceLock::take(file);
+  auto lock = FileLock::take(file);
   if (!lock) {
     throw std::runtime_error(fmt::format(
         "already runs on this bus as process {}; stop that one first", lock_owner(file)));
@@ -119,7 +120,7 @@ int run_service(int argc, char** argv, const ServiceInfo& info, const config::Se
 
   watch_signals();
   log_to_stderr(info.name);
-  const InstanceLock lock = take_lock(info, options);
+  const FileLock lock = take_lock(info, options);
   bus::Bus bus(options);
   for (const std::string& warning : bus.warnings()) spdlog::warn("{}", warning);
   bus::Health health(info.name);

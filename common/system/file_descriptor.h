@@ -17,6 +17,9 @@ class FileDescriptor {
 
   int get() const { return fd_; }
 
+  /// Gives the file away: it is not closed here any more.
+  int release() { return std::exchange(fd_, -1); }
+
  private:
   int fd_;
 };

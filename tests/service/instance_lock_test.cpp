@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <stdexcept>
 
@@ -14,28 +13,6 @@ namespace {
 
 class Lock : public WithRunFolder {};
 class RunFolder : public WithRunFolder {};
-
-TEST_F(Lock, IsHeldByOneOnly) {
-  const auto first = InstanceLock::take(folder_ / "a.lock");
-  ASSERT_TRUE(first);
-  EXPECT_FALSE(InstanceLock::take(folder_ / "a.lock"));
-  EXPECT_TRUE(InstanceLock::take(folder_ / "b.lock"));
-}
-
-TEST_F(Lock, IsFreeAgainWhenItsOwnerIsGone) {
-  { const auto first = InstanceLock::take(folder_ / "a.lock"); }
-  EXPECT_TRUE(InstanceLock::take(folder_ / "a.lock"));
-}
-
-TEST_F(Lock, TellsWhoHoldsIt) {
-  EXPECT_EQ(lock_owner(folder_ / "a.lock"), "?");
-  const auto lock = InstanceLock::take(folder_ / "a.lock");
-  EXPECT_EQ(lock_owner(folder_ / "a.lock"), std::to_string(getpid()));
-}
-
-TEST_F(Lock, SaysWhereItCannotBeWritten) {
-  EXPECT_THROW(InstanceLock::take(folder_ / "no" / "a.lock"), std::runtime_error);
-}
 
 TEST_F(Lock, HasANameForEachServiceOnEachBus) {
   const auto name = lock_name("mapper", "udpm://239.255.76.67:7667?ttl=0", "");

@@ -11,6 +11,7 @@
 #include "voxlist/bus/bus.h"
 #include "voxlist/pose_t.hpp"
 #include "voxlist/service/instance_lock.h"
+#include "voxlist/system/file_lock.h"
 
 namespace voxlist::service {
 namespace {
@@ -155,7 +156,7 @@ TEST_F(RunService, SaysInOneLineWhyItCannotStart) {
 }
 
 TEST_F(RunService, DoesNotStartBesideAnotherOfItsKindOnTheSameBus) {
-  const auto held = InstanceLock::take(folder_ / lock_name("mapper", "memq://", ""));
+  const auto held = FileLock::take(folder_ / lock_name("mapper", "memq://", ""));
   EXPECT_EQ(run<CounterService>({"--lcm-url", "memq://"}), 1);
   EXPECT_EQ(err_, "mapper: already runs on this bus as process " + std::to_string(getpid()) +
                       "; stop that one first\n");
