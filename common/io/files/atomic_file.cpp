@@ -7,7 +7,10 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <charconv>
+#include <csignal>
 #include <cstring>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -24,58 +27,28 @@ FileError failed(const fs::path& path, const std::string& action) {
                     action, std::strerror(errno))};
 }
 
-class TemporaryFile {
- public:
-  explicit TemporaryFile(const fs::path& target) : target_(target), path_(target) {
-    static std::atomic<unsigned> counter{0};
-    path_ += fmt::format(".tmp-{}-{}", ::getpid(), counter++);
-    descriptor_ =
-        ::open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0666);
-    if (descriptor_ < 0) {
-      throw failed(target_, "creating a file beside it");
-    }
-  }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-  ~TemporaryFile() {
-    if (descriptor_ >= 0) {
-      ::close(descriptor_);
-    }
-    if (!renamed_) {
-      ::unlink(path_.c_str());
-    }
-  }
+constexpr std::string_view kMark = ".tmp-";
 
-  void write(std::string_view bytes) {
-    while (!bytes.empty()) {
-      const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
-      if (written < 0 && errno != EINTR) {
-        throw failed(target_, "writing");
-      }
-      bytes.remove_prefix(static_cast<std::size_t>(std::max<ssize_t>(written, 0)));
-    }
-  }
+// "FILE.tmp-PID-NUMBER"
+fs::path temporary_name(fs::path target) {
+  static std::atomic<unsigned> counter{0};
+  return target += fmt::format("{}{}-{}", kMark, ::getpid(), counter++);
+}
 
-  void commit() {
-    if (::fsync(descriptor_) != 0) {
-      throw failed(target_, "writing to the disk");
-    }
-    // Some file systems report a full disk only here.
-    if (::close(std::exchange(descriptor_, -1)) != 0) {
-      throw failed(target_, "closing");
-    }
-    if (::rename(path_.c_str(), target_.c_str()) != 0) {
-      throw failed(target_, "renaming the finished file");
-    }
-    renamed_ = true;
-  }
+// The process that a temporary file's name tells of; nothing when it is no such name.
+std::optional<pid_t> maker_of(const std::string& name) {
+  const std::size_t mark = name.rfind(kMark);
+  if (mark == std::string::npos) return std::nullopt;
+  const char* const end = name.data() + name.size();
+  pid_t process = 0;
+  unsigned number = 0;
+  const auto [dash, bad] = std::from_chars(name.data() + mark + kMark.size(), end, process);
+  if (bad != std::errc() || dash == end || *dash != '-' || process <= 0) return std::nullopt;
+  const auto [rest, worse] = std::from_chars(dash + 1, end, number);
+  return worse == std::errc() && rest == end ? std::optional(process) : std::nullopt;
+}
 
- private:
-  fs::path target_;
-  fs::path path_;
-  int descriptor_ = -1;
-  bool renamed_ = false;
-};
+bool is_gone(pid_t process) { return ::kill(process, 0) != 0 && errno == ESRCH; }
 
 // The rename itself is only safe from a power cut once the folder is on the disk. Not every file
 // system can sync a folder, and the file is complete either way, so this failing is no error.
@@ -90,17 +63,55 @@ void sync_folder_of(const fs::path& path) {
 
 }  // namespace
 
-void write_file_atomically(const fs::path& path, std::string_view bytes) {
+AtomicFile::AtomicFile(fs::path target)
+    : target_(std::move(target)), path_(temporary_name(target_)) {
   std::error_code ignored;
-  const auto status = fs::status(path, ignored);
+  const auto status = fs::status(target_, ignored);
   // Renaming over a device such as /dev/null would replace the device.
   if (fs::exists(status) && !fs::is_regular_file(status)) {
-    throw FileError(path, "is there and not a regular file, choose another name");
+    throw FileError(target_, "is there and not a regular file, choose another name");
   }
-  TemporaryFile file(path);
+  constexpr int kFlags = O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW;
+  file_ = FileDescriptor(::open(path_.c_str(), kFlags, 0666));
+  if (file_.get() < 0) throw failed(target_, "creating a file beside it");
+}
+
+AtomicFile::~AtomicFile() {
+  if (!renamed_) ::unlink(path_.c_str());
+}
+
+void AtomicFile::write(std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(file_.get(), bytes.data(), bytes.size());
+    if (written < 0 && errno != EINTR) throw failed(target_, "writing");
+    bytes.remove_prefix(static_cast<std::size_t>(std::max<ssize_t>(written, 0)));
+  }
+}
+
+void AtomicFile::commit() {
+  if (::fsync(file_.get()) != 0) throw failed(target_, "writing to the disk");
+  // Some file systems report a full disk only here.
+  if (::close(file_.release()) != 0) throw failed(target_, "closing");
+  if (::rename(path_.c_str(), target_.c_str()) != 0) {
+    throw failed(target_, "renaming the finished file");
+  }
+  renamed_ = true;
+  sync_folder_of(target_);
+}
+
+void write_file_atomically(const fs::path& path, std::string_view bytes) {
+  AtomicFile file(path);
   file.write(bytes);
   file.commit();
-  sync_folder_of(path);
+}
+
+void remove_stale_temporaries(const fs::path& folder) {
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const auto maker = maker_of(entry->path().filename().string());
+    if (maker && is_gone(*maker)) ::unlink(entry->path().c_str());
+  }
 }
 
 }  // namespace voxlist::io
