@@ -2,55 +2,65 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "voxlist/mapping/keyframe_writer.h"
 #include "voxlist/mapping/map_builder.h"
+#include "voxlist/system/file_lock.h"
 
 namespace voxlist::mapping {
 
 /// Name of the keyframe file in a map folder.
 inline constexpr const char* kKeyframeFile = "keyframes.voxlist";
 
-/// What a map folder holds.
-struct StoredMap {
-  std::int64_t map_id = 0;
-  std::vector<Keyframe> keyframes;
-  /// What was mended on reading, for the log; empty when the file was whole.
-  std::string warning;
-};
+/// Name of the file in a map folder whose lock the mapper holds that adds to the map.
+inline constexpr const char* kMapLock = "mapper.lock";
 
-/// Reads a map folder's keyframes. Damaged records (a torn last one after a crash, a flipped bit)
-/// are left out with a warning. Throws FileError when there is no such file or it is no keyframe
-/// file.
-StoredMap load_map(const std::filesystem::path& folder);
+/// Throws FileError, which names the process, when a mapper works in the folder now.
+void refuse_folder_in_use(const std::filesystem::path& folder);
 
-/// The keyframes of a map on disk: append-only, each record with its checksum, so that a crash
-/// costs at most the record that was being written.
+/// Writes a folder's keyframe file anew, in place of one that is there, all or nothing. Throws
+/// FileError.
+void write_keyframes(const std::filesystem::path& folder, std::int64_t map_id,
+                     const std::vector<Keyframe>& keyframes);
+
+/// A map folder that keyframes are added to: its lock, and its keyframe file. Nothing that was in
+/// the file is ever lost: a damaged file is kept aside under a name of its own
+/// (keyframes.voxlist.damaged, .damaged-1, ...).
 class MapStore {
  public:
-  /// Writes a new keyframe file with these keyframes, atomically, in place of one that is there,
-  /// and keeps it open for more. Creates the folder. Throws FileError.
-  MapStore(const std::filesystem::path& folder, std::int64_t map_id,
-           const std::vector<Keyframe>& keyframes);
+  using Take = std::function<void(Keyframe)>;
 
-  /// Opens the folder's file to append to. It must be whole (load_map gave no warning). Throws
-  /// FileError.
-  explicit MapStore(const std::filesystem::path& folder);
+  /// Makes the folder if need be, takes its lock, and hands each whole keyframe to `take`. A new
+  /// map gets `new_map_id`. Throws FileError when another mapper has the folder, when the file is
+  /// none of Voxlist, and when the disk cannot be read or written.
+  MapStore(const std::filesystem::path& folder, std::int64_t new_map_id, const Take& take);
 
-  ~MapStore();
-  MapStore(const MapStore&) = delete;
-  MapStore& operator=(const MapStore&) = delete;
+  std::int64_t map_id() const { return map_id_; }
+  const std::filesystem::path& folder() const { return folder_; }
 
-  /// Appends a keyframe. Throws FileError (full disk); then the file is as it was before.
-  void append(const Keyframe& keyframe);
+  /// What was damaged and what became of it, one line for the log; empty when all was whole.
+  const std::string& notice() const { return notice_; }
 
-  /// Makes sure that what was appended survives a power cut. Throws FileError.
-  void sync();
+  /// As KeyframeWriter::append.
+  void append(const Keyframe& keyframe) { writer_->append(keyframe); }
+
+  /// False when the folder or its file was removed, replaced or cut under us.
+  bool is_in_place() const { return writer_->is_in_place(); }
 
  private:
-  std::filesystem::path path_;
-  int fd_ = -1;
+  std::filesystem::path file() const { return folder_ / kKeyframeFile; }
+  void read(std::int64_t new_map_id, const Take& take);
+  void mend();
+
+  std::filesystem::path folder_;
+  FileLock lock_;
+  std::int64_t map_id_ = 0;
+  std::string notice_;
+  std::unique_ptr<KeyframeWriter> writer_;
 };
 
 }  // namespace voxlist::mapping

@@ -1,9 +1,14 @@
 #include "services/mapper/mapper_service.h"
 
+#include <fmt/core.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <stdexcept>
+#include <voxlist/health_t.hpp>
 #include <voxlist/keyframe_t.hpp>
 #include <voxlist/localisation_t.hpp>
 #include <voxlist/map_request_t.hpp>
@@ -15,6 +20,8 @@
 #include "voxlist/bus/health.h"
 #include "voxlist/bus/map_convert.h"
 #include "voxlist/io/files/file.h"
+#include "voxlist/io/files/keep_aside.h"
+#include "voxlist/mapping/keyframe_reader.h"
 #include "voxlist/mapping/map_views.h"
 #include "voxlist/system/state_folder.h"
 
@@ -31,6 +38,15 @@ constexpr std::size_t kPointBytes = 24;
 // Time from one save on request to the next (us): the map's picture takes a while, and anyone may
 // ask.
 constexpr std::int64_t kSavePause_us = 1'000'000;
+
+constexpr std::int64_t kSecond_us = 1'000'000;
+
+// How often the folder is looked at, and what could not be written is tried again: a folder that is
+// gone is told within a second.
+constexpr std::int64_t kLookPeriod_us = kSecond_us / 2;
+
+// Silence after which another mapper is gone; its HEALTH comes once a second.
+constexpr std::int64_t kRivalGone_us = 3 * kSecond_us;
 
 // An id that no other map has: the time when it was begun.
 std::int64_t new_map_id() {
@@ -60,31 +76,35 @@ MapperService::MapperService(bus::Bus& bus, bus::Health& health, const MapperSer
   bus_.subscribe(bus::kLocalisation,
                  [this](const localisation_t& message) { take_localisation(message); });
   bus_.subscribe(bus::kMapRequest, [this](const map_request_t& message) { take_request(message); });
+  bus_.subscribe(bus::kHealth, [this](const health_t& message) { take_health(message); });
 }
 
 void MapperService::load() {
   if (folder_.empty()) return;
-  if (!std::filesystem::exists(folder_ / mapping::kKeyframeFile)) {
-    store_ = std::make_unique<mapping::MapStore>(folder_, map_id_, builder_.keyframes());
-    return;
-  }
-  mapping::StoredMap stored = mapping::load_map(folder_);
-  map_id_ = stored.map_id;
-  for (mapping::Keyframe& keyframe : stored.keyframes) {
-    trajectory_.push_back({keyframe.cloud.utime_us, keyframe.T_map_base});
-    builder_.add(std::move(keyframe));
-  }
+  if (!config_.extend) return serve_only();
+  store_ = std::make_unique<mapping::MapStore>(
+      folder_, map_id_, [this](mapping::Keyframe keyframe) { restore(std::move(keyframe)); });
+  map_id_ = store_->map_id();
   stored_ = builder_.keyframes().size();
-  if (stored.warning.empty()) {
-    store_ = std::make_unique<mapping::MapStore>(folder_);
-  } else {
-    // What is damaged is kept aside, for whoever wants to look.
-    std::filesystem::copy_file(folder_ / mapping::kKeyframeFile,
-                               folder_ / (std::string(mapping::kKeyframeFile) + ".damaged"),
-                               std::filesystem::copy_options::overwrite_existing);
-    store_ = std::make_unique<mapping::MapStore>(folder_, map_id_, builder_.keyframes());
-    health_.raise("damage", bus::Health::State::kWarning, stored.warning);
+  health_.raise("damage", bus::Health::State::kWarning, store_->notice());
+}
+
+void MapperService::serve_only() {
+  const auto file = folder_ / mapping::kKeyframeFile;
+  if (!std::filesystem::exists(file)) {
+    return health_.raise(
+        "folder", bus::Health::State::kWarning,
+        folder_.string() + " holds no map to serve; set extend = true to make one");
   }
+  mapping::KeyframeReader reader(file);
+  while (auto keyframe = reader.next()) restore(std::move(*keyframe));
+  map_id_ = reader.map_id().value_or(map_id_);
+  health_.raise("damage", bus::Health::State::kWarning, reader.warning());
+}
+
+void MapperService::restore(mapping::Keyframe keyframe) {
+  trajectory_.push_back({keyframe.cloud.utime_us, keyframe.T_map_base});
+  builder_.add(std::move(keyframe));
 }
 
 void MapperService::take_cloud(const pointcloud_t& message) {
@@ -179,58 +199,96 @@ void MapperService::resend_keyframes(std::size_t first) {
   if (sender_.push(0, [this] { --resends_queued_; })) ++resends_queued_;
 }
 
-void MapperService::store_keyframes() {
-  if (!store_) return;
-  try {
-    for (; stored_ < builder_.keyframes().size(); ++stored_)
-      store_->append(builder_.keyframes()[stored_]);
-    health_.clear("append");
-  } catch (const io::FileError& error) {
-    health_.count("save_failed");
-    health_.raise("append", bus::Health::State::kError, error.what());
-  }
+void MapperService::take_health(const health_t& message) {
+  if (message.service != "mapper" || message.pid == ::getpid()) return;
+  rival_heard_us_ = now_us_;
+  health_.raise(
+      "rival", bus::Health::State::kError,
+      fmt::format("another mapper (process {}) is on this bus; stop one of the two", message.pid));
 }
 
 void MapperService::tick(std::int64_t now_us) {
+  now_us_ = now_us;
   sender_.run(now_us);
   if (save_wanted_ && (!last_save_us_ || now_us - *last_save_us_ >= kSavePause_us)) {
     save_wanted_ = false;
     last_save_us_ = now_us;
     save();
   }
-  if (!last_sync_us_) last_sync_us_ = now_us;
-  if (static_cast<double>(now_us - *last_sync_us_) * 1e-6 < config_.save_period_s) return;
-  last_sync_us_ = now_us;
-  if (stored_ < builder_.keyframes().size()) store_keyframes();
-  sync();
+  if (rival_heard_us_ && now_us - *rival_heard_us_ > kRivalGone_us) {
+    rival_heard_us_.reset();
+    health_.clear("rival");
+  }
+  if (last_look_us_ && now_us - *last_look_us_ < kLookPeriod_us) return;
+  last_look_us_ = now_us;
+  look_after_folder();
 }
 
-void MapperService::sync() {
-  if (!store_ || synced_ == stored_) return;
+void MapperService::look_after_folder() {
+  if (!store_) return;
+  if (!store_->is_in_place()) {
+    move_to_fresh_folder();
+  } else if (stored_ < builder_.keyframes().size()) {
+    store_keyframes();
+  }
+}
+
+void MapperService::move_to_fresh_folder() try {
+  const auto lost = store_->folder();
+  const auto fresh = io::free_name(folder_, ".recovered");
+  const auto& keyframes = builder_.keyframes();
+  mapping::write_keyframes(fresh, map_id_, keyframes);
+  store_ = std::make_unique<mapping::MapStore>(fresh, map_id_, [](const mapping::Keyframe&) {});
+  stored_ = keyframes.size();
+  health_.clear("keyframes");
+  fail("folder", fmt::format("{} was removed or replaced while the mapper ran; the map is "
+                             "in {} now",
+                             lost.string(), fresh.string()));
+} catch (const std::exception& error) {
+  fail("folder", store_->folder().string() +
+                     " was removed or replaced while the mapper ran, and the map cannot be "
+                     "written elsewhere: " +
+                     error.what());
+}
+
+void MapperService::store_keyframes() {
+  if (!store_) return;
   try {
-    store_->sync();
-    synced_ = stored_;
-    health_.clear("sync");
+    for (; stored_ < builder_.keyframes().size(); ++stored_)
+      store_->append(builder_.keyframes()[stored_]);
+    health_.clear("keyframes");
   } catch (const io::FileError& error) {
-    health_.count("save_failed");
-    health_.raise("sync", bus::Health::State::kError, error.what());
+    fail("keyframes", error.what());
   }
 }
 
 void MapperService::save() {
   if (!store_) return;
-  store_keyframes();
-  sync();
+  look_after_folder();
+  views_failed_ = true;
   try {
-    mapping::write_map_views(folder_, builder_.map().occupied, trajectory_);
+    mapping::write_map_views(store_->folder(), builder_.map().occupied, trajectory_);
+    views_failed_ = false;
     health_.count("saved");
     health_.clear("views");
   } catch (const io::FileError& error) {
-    health_.count("save_failed");
-    health_.raise("views", bus::Health::State::kError, error.what());
+    fail("views", error.what());
   }
 }
 
-void MapperService::stop() { save(); }
+void MapperService::fail(const std::string& what, const std::string& sentence) {
+  health_.count("save_failed");
+  health_.raise(what, bus::Health::State::kError, sentence);
+}
+
+void MapperService::stop() {
+  if (!store_) return;
+  save();
+  if (stored_ == builder_.keyframes().size() && !views_failed_) return;
+  // The loop sends no HEALTH any more.
+  if (const auto message = health_.due(now_us_ + kSecond_us, bus_.counters()))
+    bus_.publish(bus::kHealth, *message);
+  throw std::runtime_error("the last save failed: " + health_.message());
+}
 
 }  // namespace voxlist::services

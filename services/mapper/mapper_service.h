@@ -13,6 +13,7 @@
 #include "voxlist/mapping/map_store.h"
 
 namespace voxlist {
+class health_t;
 class localisation_t;
 class map_request_t;
 class pointcloud_t;
@@ -29,7 +30,6 @@ namespace voxlist::services {
 struct MapperServiceConfig {
   std::string folder = "map";
   bool extend = true;
-  double save_period_s = 10.0;
   mapping::MapBuilderConfig builder;
 
   template <class Visitor>
@@ -37,9 +37,8 @@ struct MapperServiceConfig {
     v("folder", folder,
       "where the map is kept, in the state folder if relative; loaded at start when it holds one; "
       "empty: in memory alone");
-    v("extend", extend, "add clouds to the map; false: only serve the map that is there");
-    v("save_period_s", save_period_s, "how often what was added is synced to the disk", 0.1,
-      3600.0);
+    v("extend", extend,
+      "add clouds to the map; false: only serve the map that is there, and write nothing");
     builder.visit(v);
   }
 };
@@ -47,32 +46,40 @@ struct MapperServiceConfig {
 /// CLOUD, LOCALISATION and MAP_REQUEST in; MAP_UPDATE and KEYFRAME out; the map folder on disk.
 ///
 /// Each LOCALISATION is answered by a MAP_UPDATE, an empty one when nothing was added: the
-/// localiser waits for it. Each keyframe goes to disk at once, so that kill -9 loses none; a disk
-/// that is full is an error in HEALTH, and what could not be written is kept and tried again.
+/// localiser waits for it. Each keyframe goes to disk at once, so that neither kill -9 nor a power
+/// cut loses one; a disk that is full is an error in HEALTH until what could not be written is. A
+/// folder that vanishes costs nothing either: the map goes on in a fresh one beside it.
 class MapperService {
  public:
-  /// Loads the folder's map. Throws FileError when there is one that cannot be read or no folder
-  /// can be made.
+  /// Loads the folder's map. Throws FileError when there is one that cannot be read, when no folder
+  /// can be made, and when another mapper works in it.
   MapperService(bus::Bus& bus, bus::Health& health, const MapperServiceConfig& config);
 
-  /// Sends what is queued, as fast as listeners can take it, and syncs the disk when it is time.
+  /// Sends what is queued, as fast as listeners can take it, looks after the folder, and tries
+  /// again what could not be written.
   void tick(std::int64_t now_us);
 
-  /// Writes the map's views (picture, points, trajectory) and syncs.
+  /// Writes the map's views (picture, points, trajectory). Throws std::runtime_error when something
+  /// of the map could not be written.
   void stop();
 
  private:
   void take_cloud(const pointcloud_t& message);
   void take_localisation(const localisation_t& message);
   void take_request(const map_request_t& message);
+  void take_health(const health_t& message);
   void load();
+  void serve_only();
+  void restore(mapping::Keyframe keyframe);
   void add(std::int64_t utime_us, const Pose2& pose);
   void send_change(std::int64_t base_version);
   void send_keyframes(std::size_t first);
   void resend_keyframes(std::size_t first);
+  void look_after_folder();
+  void move_to_fresh_folder();
   void store_keyframes();
-  void sync();
   void save();
+  void fail(const std::string& what, const std::string& sentence);
   std::int64_t version() const { return static_cast<std::int64_t>(builder_.keyframes().size()); }
 
   bus::Bus& bus_;
@@ -82,8 +89,7 @@ class MapperService {
   mapping::MapBuilder builder_;
   std::int64_t map_id_ = 0;
   std::unique_ptr<mapping::MapStore> store_;
-  std::size_t stored_ = 0;  // keyframes that were appended to the store
-  std::size_t synced_ = 0;  // keyframes that would survive a power cut
+  std::size_t stored_ = 0;  // keyframes that were the store has on the disk
   std::vector<StampedPose3> trajectory_;
   std::deque<Cloud> recent_clouds_;
   bus::PacedSender sender_;
@@ -93,7 +99,10 @@ class MapperService {
   std::int64_t resends_queued_ = 0;
   bool save_wanted_ = false;
   std::optional<std::int64_t> last_save_us_;
-  std::optional<std::int64_t> last_sync_us_;
+  std::int64_t now_us_ = 0;
+  std::optional<std::int64_t> last_look_us_;
+  std::optional<std::int64_t> rival_heard_us_;
+  bool views_failed_ = false;
 };
 
 }  // namespace voxlist::services

@@ -3,15 +3,17 @@
 #include <cstdio>
 #include <exception>
 
+#include "voxlist/mapping/keyframe_reader.h"
 #include "voxlist/mapping/map_store.h"
 
 int main(int argc, char** argv) try {
   if (argc != 2) return 2;
-  voxlist::mapping::StoredMap stored = voxlist::mapping::load_map(argv[1]);
-  voxlist::mapping::MapBuilder builder;
-  for (voxlist::mapping::Keyframe& keyframe : stored.keyframes) builder.add(std::move(keyframe));
-  std::printf("map %lld, %zu keyframes, hash %016llx\n", static_cast<long long>(stored.map_id),
-              builder.keyframes().size(),
+  using namespace voxlist::mapping;
+  KeyframeReader reader(std::filesystem::path(argv[1]) / kKeyframeFile);
+  MapBuilder builder;
+  while (auto keyframe = reader.next()) builder.add(std::move(*keyframe));
+  std::printf("map %lld, %zu keyframes, hash %016llx\n",
+              static_cast<long long>(reader.map_id().value_or(0)), builder.keyframes().size(),
               static_cast<unsigned long long>(builder.map().occupied.hash()));
   return 0;
 } catch (const std::exception& error) {

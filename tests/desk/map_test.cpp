@@ -11,6 +11,7 @@
 #include "services/voxlist/output/console.h"
 #include "services/voxlist/output/stop.h"
 #include "tests/desk/scan_set.h"
+#include "tests/stored_map.h"
 #include "voxlist/evaluation/evaluation.h"
 #include "voxlist/io/clouds/cloud_file.h"
 #include "voxlist/io/poses/trajectory.h"
@@ -66,7 +67,7 @@ TEST_F(Map, TellsTheSameInTheSummaryAsInTheFiles) {
   EXPECT_EQ(json["seconds"], test::kScans - 1.0);
   EXPECT_GT(json["real_time_factor"], 0.0);
   EXPECT_EQ(json["voxels"], io::read_cloud_file(folder_ + "/map.ply").points.size());
-  const mapping::StoredMap stored = mapping::load_map(folder_);
+  const test::StoredMap stored = test::load_map(folder_);
   EXPECT_EQ(json["keyframes"], stored.keyframes.size());
   EXPECT_GT(stored.keyframes.size(), 1u);
   EXPECT_EQ(stored.warning, "");
@@ -105,7 +106,7 @@ TEST_F(Map, PutsScansAtGivenPosesAndSkipsThoseWithout) {
   EXPECT_EQ(trajectory[0].utime_us, 3'000'000);
   EXPECT_TRUE(trajectory[0].pose.translation().isApprox(Eigen::Vector3d(1.0, 2.0, 3.0)));
   EXPECT_NEAR(to_pose2(trajectory[0].pose).yaw_rad, 2.0 * std::atan2(0.6, 0.8), 1e-9);
-  EXPECT_EQ(mapping::load_map(folder_).keyframes.size(), 2u);
+  EXPECT_EQ(test::load_map(folder_).keyframes.size(), 2u);
   EXPECT_EQ(summary(folder_)["without_pose"], test::kScans - 2);
 }
 
@@ -188,7 +189,7 @@ TEST_F(Map, KeepsWhatItHasWhenInterrupted) {
   EXPECT_EQ(exit_code, kInterrupted);
   EXPECT_EQ(summary(folder_)["placed"], 3);
   EXPECT_EQ(summary(folder_)["interrupted"], true);
-  EXPECT_EQ(mapping::load_map(folder_).warning, "");
+  EXPECT_EQ(test::load_map(folder_).warning, "");
   EXPECT_FALSE(fs::exists(folder_ + "/map.bt"));
 }
 

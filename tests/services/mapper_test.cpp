@@ -1,4 +1,5 @@
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <optional>
@@ -11,11 +12,14 @@
 #include <voxlist/pointcloud_t.hpp>
 
 #include "services/mapper/mapper_service.h"
+#include "tests/file_size_limit.h"
+#include "tests/stored_map.h"
 #include "tests/temporary_folder.h"
 #include "voxlist/bus/bus.h"
 #include "voxlist/bus/convert.h"
 #include "voxlist/bus/health.h"
 #include "voxlist/bus/map_convert.h"
+#include "voxlist/io/files/file.h"
 
 namespace voxlist::services {
 namespace {
@@ -141,7 +145,7 @@ TEST(Mapper, ADeadMappersMapIsThereAgainAtItsNextStart) {
   EXPECT_EQ(second.map.occupied.hash(), map.occupied.hash());
   EXPECT_EQ(second.map.passed.hash(), map.passed.hash());
   second.drive(3, {2.0, 0.0, 0.0});
-  EXPECT_EQ(mapping::load_map(folder.string()).keyframes.size(), 3u);
+  EXPECT_EQ(test::load_map(folder.string()).keyframes.size(), 3u);
 }
 
 TEST(Mapper, SendsKeyframesFromTheOneThatWasMissed) {
@@ -216,14 +220,17 @@ TEST(Mapper, OnlyServesItsMapWhenItIsNotToExtendIt) {
   EXPECT_EQ(scene.assembler.held()->utime_us, 2 * kSecond_us);
 }
 
+// A map folder with keyframes at (0, 0) and (1, 0).
+void make_map(const std::string& folder) {
+  Scene scene(folder);
+  scene.request(map_request_t::WANT_MAP);
+  scene.drive(1, {});
+  scene.drive(2, {1.0, 0.0, 0.0});
+}
+
 TEST(Mapper, KeepsADamagedFileAsideAndGoesOnWithTheWholeKeyframes) {
   const TemporaryFolder folder;
-  {
-    Scene scene(folder.string());
-    scene.request(map_request_t::WANT_MAP);
-    scene.drive(1, {});
-    scene.drive(2, {1.0, 0.0, 0.0});
-  }
+  make_map(folder.string());
   const auto file = folder / mapping::kKeyframeFile;
   std::filesystem::resize_file(file, std::filesystem::file_size(file) - 3);
   Scene scene(folder.string());
@@ -231,7 +238,135 @@ TEST(Mapper, KeepsADamagedFileAsideAndGoesOnWithTheWholeKeyframes) {
   EXPECT_EQ(scene.assembler.held()->version, 1);
   EXPECT_TRUE(std::filesystem::exists(folder / (std::string(mapping::kKeyframeFile) + ".damaged")));
   scene.drive(3, {2.0, 0.0, 0.0});
-  EXPECT_TRUE(mapping::load_map(folder.string()).warning.empty());
+  EXPECT_TRUE(test::load_map(folder.string()).warning.empty());
+}
+
+TEST(Mapper, DoesNotStartInAFolderOfAnotherMapper) {
+  const TemporaryFolder folder;
+  const Scene first(folder.string());
+  EXPECT_THROW(Scene(folder.string()), io::FileError);
+}
+
+TEST(Mapper, ServesAFolderThatItMustNotWriteAndWritesNothing) {
+  const TemporaryFolder folder;
+  make_map(folder / "map");
+  std::filesystem::remove(folder / "map" / mapping::kMapLock);
+  const auto before = std::filesystem::last_write_time(folder / "map");
+  Scene scene(folder / "map", false);
+  scene.request(map_request_t::WANT_MAP);
+  EXPECT_EQ(scene.assembler.held()->version, 2);
+  scene.drive(3, {5.0, 0.0, 0.0});
+  scene.request(map_request_t::WANT_SAVE);
+  scene.service->stop();
+  EXPECT_EQ(std::filesystem::last_write_time(folder / "map"), before);
+  EXPECT_EQ(scene.health.state(), bus::Health::State::kOk) << scene.health.message();
+}
+
+TEST(Mapper, SaysThatThereIsNoMapToServe) {
+  const TemporaryFolder folder;
+  Scene scene(folder / "none", false);
+  EXPECT_EQ(scene.health.state(), bus::Health::State::kWarning);
+  EXPECT_FALSE(std::filesystem::exists(folder / "none"));
+}
+
+class FolderGone : public testing::Test {
+ protected:
+  FolderGone() {
+    scene_.request(map_request_t::WANT_MAP);
+    scene_.drive(1, {});
+    scene_.drive(2, {1.0, 0.0, 0.0});
+  }
+
+  // The mapper goes on in a fresh folder, which holds all that it ever had.
+  void expect_recovery(const std::string& fresh) {
+    scene_.now_us += kSecond_us;
+    scene_.run();
+    EXPECT_EQ(scene_.health.state(), bus::Health::State::kError);
+    EXPECT_THAT(scene_.health.message(), testing::HasSubstr(fresh));
+    EXPECT_EQ(test::load_map(folder_ / fresh).keyframes.size(), 2u);
+    scene_.drive(3, {2.0, 0.0, 0.0});
+    EXPECT_EQ(test::load_map(folder_ / fresh).keyframes.size(), 3u);
+    EXPECT_EQ(test::load_map(folder_ / fresh).map_id, scene_.assembler.held()->map_id);
+    EXPECT_NO_THROW(scene_.service->stop());
+    EXPECT_TRUE(std::filesystem::exists(folder_ / fresh / "map.png"));
+  }
+
+  const TemporaryFolder folder_;
+  const std::filesystem::path map_ = folder_ / "map";
+  Scene scene_{map_};
+};
+
+TEST_F(FolderGone, RemovedUnderTheMapper) {
+  std::filesystem::remove_all(map_);
+  expect_recovery("map.recovered-1");
+  EXPECT_FALSE(std::filesystem::exists(map_));
+}
+
+TEST_F(FolderGone, ReplacedUnderTheMapper) {
+  std::filesystem::rename(map_, folder_ / "old");
+  make_map(map_);
+  const std::string others = io::read_file(map_ / mapping::kKeyframeFile);
+  expect_recovery("map.recovered-1");
+  EXPECT_EQ(io::read_file(map_ / mapping::kKeyframeFile), others);
+}
+
+TEST_F(FolderGone, RemovedAgainAndAgain) {
+  std::filesystem::remove_all(map_);
+  scene_.now_us += kSecond_us;
+  scene_.run();
+  std::filesystem::rename(folder_ / "map.recovered-1", folder_ / "taken");
+  std::filesystem::create_directory(folder_ / "map.recovered-1");
+  expect_recovery("map.recovered-2");
+}
+
+// What could not be written is written when there is room, and the error ends.
+TEST(Mapper, AFullDiskIsAnErrorForAsLongAsItLasts) {
+  const TemporaryFolder folder;
+  Scene scene(folder.string());
+  scene.request(map_request_t::WANT_MAP);
+  scene.drive(1, {});
+  {
+    const test::FileSizeLimit full(1000);
+    scene.drive(2, {1.0, 0.0, 0.0});
+    scene.drive(3, {2.0, 0.0, 0.0});
+    EXPECT_EQ(scene.health.state(), bus::Health::State::kError);
+    EXPECT_THROW(scene.service->stop(), std::runtime_error);
+    EXPECT_EQ(test::load_map(folder.path()).keyframes.size(), 1u);
+  }
+  EXPECT_EQ(scene.assembler.held()->version, 3);
+  scene.now_us += kSecond_us;
+  scene.run();
+  EXPECT_EQ(test::load_map(folder.path()).keyframes.size(), 3u);
+  scene.service->stop();
+  EXPECT_EQ(scene.health.state(), bus::Health::State::kOk) << scene.health.message();
+}
+
+TEST(Mapper, SaysThatItsLastSaveFailed) {
+  const TemporaryFolder folder;
+  Scene scene(folder.string());
+  scene.request(map_request_t::WANT_MAP);
+  scene.drive(1, {});
+  std::filesystem::create_directories(folder / "map.png");
+  EXPECT_THROW(scene.service->stop(), std::runtime_error);
+}
+
+TEST(Mapper, HearsAnotherMapperOnItsBus) {
+  const TemporaryFolder folder;
+  Scene scene(folder.string());
+  health_t message{};
+  message.service = "mapper";
+  message.pid = ::getpid();
+  scene.bus.publish(bus::kHealth, message);
+  scene.run();
+  EXPECT_EQ(scene.health.state(), bus::Health::State::kOk);
+  message.pid = 1;
+  scene.bus.publish(bus::kHealth, message);
+  scene.run();
+  EXPECT_EQ(scene.health.state(), bus::Health::State::kError);
+  EXPECT_THAT(scene.health.message(), testing::HasSubstr("process 1"));
+  scene.now_us += 4 * kSecond_us;
+  scene.run();
+  EXPECT_EQ(scene.health.state(), bus::Health::State::kOk);
 }
 
 }  // namespace

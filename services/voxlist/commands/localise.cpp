@@ -13,6 +13,7 @@
 #include "services/voxlist/recording/scan_input.h"
 #include "voxlist/io/files/atomic_file.h"
 #include "voxlist/io/files/file.h"
+#include "voxlist/mapping/keyframe_reader.h"
 #include "voxlist/mapping/map_store.h"
 
 namespace voxlist::desk {
@@ -49,13 +50,13 @@ std::string row(const Located& located) {
 
 mapping::MapBuilder build(const std::filesystem::path& folder,
                           const mapping::MapBuilderConfig& config, Console& console) {
-  mapping::StoredMap stored = mapping::load_map(folder);
-  if (!stored.warning.empty()) console.warn(stored.warning);
-  if (stored.keyframes.empty()) {
+  mapping::KeyframeReader reader(folder / mapping::kKeyframeFile);
+  mapping::MapBuilder builder(config);
+  while (auto keyframe = reader.next()) builder.add(std::move(*keyframe));
+  if (!reader.warning().empty()) console.warn(reader.warning());
+  if (builder.keyframes().empty()) {
     throw io::FileError(folder, "holds an empty map, make one with voxlist map");
   }
-  mapping::MapBuilder builder(config);
-  for (mapping::Keyframe& keyframe : stored.keyframes) builder.add(std::move(keyframe));
   return builder;
 }
 

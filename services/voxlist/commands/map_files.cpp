@@ -8,6 +8,7 @@
 
 #include "services/voxlist/output/progress.h"
 #include "services/voxlist/output/stop.h"
+#include "voxlist/io/files/atomic_file.h"
 #include "voxlist/io/files/file.h"
 #include "voxlist/mapping/map_store.h"
 #include "voxlist/mapping/map_views.h"
@@ -33,12 +34,15 @@ std::int64_t map_id(const VoxelMap& map) { return static_cast<std::int64_t>(map.
 }  // namespace
 
 MapFiles::MapFiles(fs::path folder)
-    : folder_(made(std::move(folder))), summary_(folder_ / "summary.json") {}
+    : folder_(made(std::move(folder))), summary_(folder_ / "summary.json") {
+  mapping::refuse_folder_in_use(folder_);
+  io::remove_stale_temporaries(folder_);
+}
 
 void MapFiles::write_map(const MapRun& run) const {
   const VoxelMap& map = run.builder().map().occupied;
   mapping::write_map_views(folder_, map, run.trajectory());
-  const mapping::MapStore stored(folder_, map_id(map), run.builder().keyframes());
+  mapping::write_keyframes(folder_, map_id(map), run.builder().keyframes());
 }
 
 bool MapFiles::write_octomap(const mapping::MapBuilder& builder,

@@ -25,7 +25,7 @@ struct RunFigures {
 /// others are left alone.
 class MapFiles {
  public:
-  /// Makes the folder. Throws FileError when nothing can be written there.
+  /// Makes the folder. Throws FileError when nothing can be written there, or a mapper works in it.
   explicit MapFiles(std::filesystem::path folder);
 
   /// Writes trajectory, voxels, picture and keyframes. Throws FileError.

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "voxlist/io/files/file_window.h"
+#include "voxlist/mapping/keyframe_format.h"
+
+namespace voxlist::mapping {
+
+/// Hands out the keyframes of a file one by one, in memory for one of them. After any damage it
+/// goes on with the next whole record: a flipped bit costs at most the record that it is in.
+class KeyframeReader {
+ public:
+  /// Throws FileError when there is no such file or it is no keyframe file.
+  explicit KeyframeReader(const std::filesystem::path& file);
+
+  /// The next whole keyframe; nothing at the end. Throws FileError when the disk cannot be read.
+  std::optional<Keyframe> next();
+
+  /// The map's id; nothing in a file that is too short to hold one.
+  std::optional<std::int64_t> map_id() const { return map_id_; }
+
+  /// The number for the record after those that were handed out.
+  std::uint32_t next_number() const { return next_number_; }
+
+  /// What was damaged so far, one line for the log; empty when all was whole.
+  std::string warning() const;
+
+ private:
+  struct Record {
+    std::uint64_t start = 0;
+    std::uint64_t end = 0;
+    RecordHeader header;
+    std::optional<Keyframe> keyframe;  // nothing in a kind that is not known here
+  };
+
+  void read_file_header();
+  void adopt(const FileHeader& header);
+  std::optional<RecordHeader> header_at(std::uint64_t offset);
+  std::optional<Record> record_at(std::uint64_t offset);
+  std::optional<Record> find_record(std::uint64_t from);
+  std::uint64_t next_candidate(std::uint64_t from);
+  void note_gap(std::uint64_t end);
+  bool is_repeated(const RecordHeader& header) const;
+
+  io::FileWindow file_;
+  std::optional<std::int64_t> map_id_;
+  bool first_format_ = false;
+  std::uint64_t position_ = 0;
+  std::optional<RecordHeader> last_;
+  std::uint32_t next_number_ = 0;
+  std::uint64_t whole_ = 0;
+  std::uint64_t damaged_places_ = 0;
+  std::uint64_t damaged_bytes_ = 0;
+};
+
+}  // namespace voxlist::mapping

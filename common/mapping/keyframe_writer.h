@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+#include "voxlist/io/files/atomic_file.h"
+#include "voxlist/mapping/map_builder.h"
+#include "voxlist/system/file_descriptor.h"
+
+namespace voxlist::mapping {
+
+/// A keyframe file that takes the place of the one that is there once it is whole. Each function
+/// throws FileError; then what was there is as it was.
+class NewKeyframeFile {
+ public:
+  NewKeyframeFile(const std::filesystem::path& file, std::int64_t map_id);
+
+  void add(const Keyframe& keyframe);
+
+  /// Brings all to the disk and puts it in place.
+  void commit() { file_.commit(); }
+
+ private:
+  io::AtomicFile file_;
+  std::int64_t map_id_;
+  std::uint32_t number_ = 0;
+};
+
+/// Appends keyframes to a file, each to the disk before the next one.
+class KeyframeWriter {
+ public:
+  /// Opens a keyframe file that is there. `next_number` as KeyframeReader tells it. Throws
+  /// FileError.
+  KeyframeWriter(const std::filesystem::path& file, std::int64_t map_id, std::uint32_t next_number);
+
+  /// Returns when the keyframe would survive a power cut. Throws FileError (full disk): then the
+  /// file holds what it held before, and the same keyframe can be appended again.
+  void append(const Keyframe& keyframe);
+
+  /// Whether the file is still where it was opened, and nobody has cut it.
+  bool is_in_place() const;
+
+ private:
+  std::filesystem::path path_;
+  FileDescriptor file_;
+  std::int64_t map_id_;
+  std::uint32_t next_number_;
+  std::int64_t size_ = 0;  // bytes after the last keyframe that is safe
+};
+
+}  // namespace voxlist::mapping
