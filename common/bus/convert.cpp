@@ -8,6 +8,8 @@
 #include <voxlist/pointcloud_t.hpp>
 #include <voxlist/pose_t.hpp>
 
+#include "voxlist/geometry/time_limit.h"
+
 namespace voxlist::bus {
 namespace {
 
@@ -17,9 +19,6 @@ const std::array<std::string, 3> kOriginChannels = {"origin_x", "origin_y", "ori
 
 // How far a quaternion's norm may be from 1: orientations come from single-precision senders too.
 constexpr double kMaxNormError = 1e-3;
-
-// Latest time (us): half of what 64 bits hold, so that the difference of two times fits.
-constexpr std::int64_t kMaxUtime_us = std::int64_t{1} << 62;
 
 bool is_sane(const Eigen::Vector3f& point) {
   return point.allFinite() && point.cwiseAbs().maxCoeff() <= kMaxPoint_m;

@@ -22,7 +22,7 @@ struct ErrorStatistics {
 /// The statistics of these errors, none of them negative.
 ErrorStatistics statistics(std::vector<double> errors);
 
-/// By what poses of the estimate were paired with those of the truth.
+/// What poses of the estimate and of the truth were paired by.
 enum class Association { kByTime, kByScanNumber };
 
 /// A true pose and its estimate. The estimate is in the truth's frame: the trajectory was moved so

@@ -1,7 +1,10 @@
 #include "services/localiser/localiser_service.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <voxlist/localisation_t.hpp>
 #include <voxlist/map_request_t.hpp>
 #include <voxlist/map_update_t.hpp>
@@ -47,17 +50,24 @@ localisation_t to_message(const matching::Localisation& result) {
 
 LocaliserService::LocaliserService(bus::Bus& bus, bus::Health& health,
                                    const LocaliserServiceConfig& config)
-    : bus_(bus), health_(health), config_(config), localiser_(map_, config.localiser) {
+    : bus_(bus),
+      health_(health),
+      config_(config),
+      localiser_(map_, config.localiser),
+      cloud_input_(health),
+      odometry_check_(health, {.channel = "ODOMETRY",
+                               .remedy = "is the robot base running?",
+                               .is_needed = false,
+                               .disorder_us = OdometryBuffer::kMaxAge_us}) {
   bus_.subscribe(bus::kOdometry, [this](const pose_t& message) { take_odometry(message); });
   bus_.subscribe(bus::kMapUpdate, [this](const map_update_t& message) { take_map(message); });
   bus_.subscribe(bus::kCloud, [this](const pointcloud_t& message) { take_cloud(message); });
 }
 
 void LocaliserService::take_cloud(const pointcloud_t& message) {
-  auto received = bus::from_message(message);
-  if (received.dropped_points > 0) health_.count("CLOUD/dropped_points", received.dropped_points);
-  if (!received.cloud) return health_.count("CLOUD/" + received.refusal);
-  waiting_.push_back({std::move(*received.cloud), bus_.arrival_utime_us()});
+  auto cloud = cloud_input_.take(message);
+  if (!cloud) return;
+  waiting_.push_back({std::move(*cloud), bus_.arrival_utime_us()});
   if (waiting_.size() > static_cast<std::size_t>(config_.max_waiting_clouds)) {
     waiting_.pop_front();
     health_.count("CLOUD/dropped_while_waiting");
@@ -65,8 +75,13 @@ void LocaliserService::take_cloud(const pointcloud_t& message) {
 }
 
 void LocaliserService::take_odometry(const pose_t& message) {
+  if (!odometry_check_.take(message.utime)) return;
   const auto pose = bus::from_message(message);
-  if (!pose) return health_.count("ODOMETRY/not_a_pose");
+  if (!pose) {
+    odometry_check_.note("not_a_pose", bus::Health::State::kWarning,
+                         "ODOMETRY is no pose: pos must be finite, orientation of length 1");
+    return health_.count("ODOMETRY/not_a_pose");
+  }
   const StampedPose2 T_odom_base{pose->utime_us, to_pose2(pose->pose)};
   odometry_.add(T_odom_base);
   if (T_map_odom_) publish_pose(T_odom_base.utime_us, *T_map_odom_ * T_odom_base.pose);
@@ -86,6 +101,8 @@ void LocaliserService::take_map(const map_update_t& message) {
 }
 
 void LocaliserService::tick(std::int64_t now_us) {
+  cloud_input_.tick(now_us);
+  odometry_check_.tick(now_us);
   if (assembler_.needs_request()) request_map(now_us);
   if (waiting_.empty()) return;
   if (unanswered_utime_us_ && !unanswered_since_us_) unanswered_since_us_ = now_us;
@@ -121,6 +138,7 @@ void LocaliserService::localise(const Cloud& cloud) {
   matching::Localisation result;
   result.utime_us = cloud.utime_us;
   const auto T_odom_base = odometry_.at(cloud.utime_us);
+  compare_times(cloud.utime_us, T_odom_base.has_value());
   if (held) result = localiser_.localise(cloud, T_odom_base);
 
   localisation_t message = to_message(result);
@@ -144,6 +162,17 @@ void LocaliserService::localise(const Cloud& cloud) {
     last_pose_.reset();
   }
   bus_.publish(bus::kLocalisation, message);
+}
+
+void LocaliserService::compare_times(std::int64_t cloud_utime_us, bool has_odometry) {
+  const auto newest_us = odometry_.newest_utime_us();
+  if (has_odometry || !newest_us) return;
+  const double older_s = static_cast<double>(cloud_utime_us - *newest_us) * 1e-6;
+  health_.count("ODOMETRY/not_of_this_time");
+  odometry_check_.note("not_of_this_time", bus::Health::State::kWarning,
+                       fmt::format("ODOMETRY is {:.1f} s {} than CLOUD and is not used: do their "
+                                   "clocks agree?",
+                                   std::abs(older_s), older_s > 0.0 ? "older" : "newer"));
 }
 
 void LocaliserService::tell(matching::LocalisationState state) {

@@ -7,6 +7,7 @@
 #include "voxlist/bus/map_chunks.h"
 #include "voxlist/geometry/odometry_buffer.h"
 #include "voxlist/matching/localisation/localiser.h"
+#include "voxlist/service/inputs/cloud_input.h"
 
 namespace voxlist {
 class map_update_t;
@@ -64,6 +65,7 @@ class LocaliserService {
   bool map_is_due(std::int64_t now_us) const;
   void localise(const Cloud& cloud);
   void tell(matching::LocalisationState state);
+  void compare_times(std::int64_t cloud_utime_us, bool has_odometry);
   void publish_pose(std::int64_t utime_us, const Pose2& pose);
 
   bus::Bus& bus_;
@@ -72,6 +74,8 @@ class LocaliserService {
   OccupancyMap map_;
   matching::Localiser localiser_;
   bus::MapAssembler assembler_;
+  service::CloudInput cloud_input_;
+  service::ChannelCheck odometry_check_;
   OdometryBuffer odometry_;
   std::deque<Waiting> waiting_;  // oldest first
   std::optional<std::int64_t> last_request_us_;

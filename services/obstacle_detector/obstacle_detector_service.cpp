@@ -5,7 +5,6 @@
 #include <voxlist/pointcloud_t.hpp>
 
 #include "voxlist/bus/bus.h"
-#include "voxlist/bus/convert.h"
 #include "voxlist/bus/health.h"
 
 namespace voxlist::services {
@@ -39,21 +38,23 @@ obstacles_t to_message(const planning::ObstacleScan& scan, const planning::Obsta
 
 ObstacleDetectorService::ObstacleDetectorService(bus::Bus& bus, bus::Health& health,
                                                  const planning::ObstacleConfig& config)
-    : bus_(bus), health_(health), config_(checked(config)) {
+    : bus_(bus),
+      health_(health),
+      config_(checked(config)),
+      input_(health, service::CloudInput::Sees::kTheNewest) {
   bus_.subscribe(
       bus::kCloud, [this](const pointcloud_t& m) { take(m); }, bus::Delivery::kLatest);
 }
 
 void ObstacleDetectorService::take(const pointcloud_t& message) {
-  const bus::ReceivedCloud received = bus::from_message(message);
-  if (received.dropped_points > 0) health_.count("CLOUD/dropped_points", received.dropped_points);
-  if (!received.cloud) return health_.count("CLOUD/" + received.refusal);
-  bus_.publish(bus::kObstacles,
-               to_message(planning::nearest_obstacles(*received.cloud, config_), config_));
+  const std::optional<Cloud> cloud = input_.take(message);
+  if (!cloud) return;
+  bus_.publish(bus::kObstacles, to_message(planning::nearest_obstacles(*cloud, config_), config_));
   arrival_us_ = bus_.arrival_utime_us();
 }
 
 void ObstacleDetectorService::tick(std::int64_t now_us) {
+  input_.tick(now_us);
   if (arrival_us_) health_.add_latency_us(now_us - *arrival_us_);
   arrival_us_.reset();
 }

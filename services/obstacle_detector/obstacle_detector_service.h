@@ -5,6 +5,7 @@
 
 #include "voxlist/bus/channels.h"
 #include "voxlist/planning/obstacles.h"
+#include "voxlist/service/inputs/cloud_input.h"
 
 namespace voxlist::bus {
 class Bus;
@@ -29,6 +30,7 @@ class ObstacleDetectorService {
   bus::Bus& bus_;
   bus::Health& health_;
   const planning::ObstacleConfig config_;
+  service::CloudInput input_;
   std::optional<std::int64_t> arrival_us_;  // of the cloud that was handled last
 };
 

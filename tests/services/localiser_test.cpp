@@ -172,5 +172,46 @@ TEST(LocaliserService, ForgetsWhereItWasWhenTheMapIsAnother) {
   EXPECT_TRUE(scene.localisations[1].searched_whole_map);
 }
 
+TEST(LocaliserService, AForgedTimeDoesNotShutOutTheCloudsAfterIt) {
+  Scene scene;
+  scene.send_map(map_of_room(), 0);
+  scene.send_cloud(kStart_us);
+  scene.run(kStart_us);
+  scene.send_cloud(kStart_us + 30'000'000);
+  scene.run(kStart_us + 1'000'000);
+  for (int i = 2; i < 10; ++i) {
+    scene.send_cloud(kStart_us + i * 1'000'000);
+    scene.run(kStart_us + i * 1'000'000);
+    scene.run(kStart_us + i * 1'000'000 + 600'000);  // no mapper answers: it waits for 0.5 s
+  }
+  EXPECT_EQ(scene.localisations.size(), 2u + 8u - 2u);
+  EXPECT_EQ(scene.localisations.back().utime, kStart_us + 9'000'000);
+}
+
+TEST(LocaliserService, TellsThatOdometryIsOfAnotherTime) {
+  Scene scene;
+  scene.send_map(map_of_room(), 0);
+  const std::int64_t old_us = kStart_us - 12'000'000;
+  scene.bus.publish(bus::kOdometry, bus::to_message(StampedPose2{old_us, {}}));
+  scene.send_cloud(kStart_us);
+  scene.run(kStart_us);
+  EXPECT_EQ(scene.health.message(),
+            "ODOMETRY is 12.0 s older than CLOUD and is not used: do their clocks agree?");
+  scene.bus.publish(bus::kOdometry, bus::to_message(StampedPose2{kStart_us + 1'000'000, {}}));
+  scene.send_cloud(kStart_us + 1'000'000);
+  scene.run(kStart_us + 1'000'000);
+  scene.run(kStart_us + 6'000'000);
+  EXPECT_EQ(scene.health.message().find("older"), std::string::npos) << scene.health.message();
+}
+
+TEST(LocaliserService, TellsThatOdometryIsNoPose) {
+  Scene scene;
+  pose_t message{};
+  message.utime = kStart_us;
+  scene.bus.publish(bus::kOdometry, message);
+  scene.run(kStart_us);
+  EXPECT_NE(scene.health.message().find("ODOMETRY is no pose"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace voxlist::services

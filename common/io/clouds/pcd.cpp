@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <lzf.h>
 
+#include <cctype>
 #include <map>
 #include <optional>
 #include <string>
@@ -26,6 +27,7 @@ struct Header {
   std::vector<Field> fields;
   std::uint64_t points;
   std::string encoding;
+  std::size_t lines;  // of the header
 };
 
 using Words = std::vector<std::string>;
@@ -34,11 +36,18 @@ using Entries = std::map<std::string, Words, std::less<>>;
 // PCL's own limit on COUNT is 32 bits; histograms of a few hundred are what is seen.
 constexpr std::uint64_t kMaxCount = 1u << 20;
 
-Entries take_entries(std::string_view& bytes) {
+// Keywords in any case; COLUMNS is what FIELDS was called once.
+std::string plain_key(std::string_view word) {
+  const std::string key = lower_case(word);
+  return key == "columns" ? "fields" : key;
+}
+
+Entries take_entries(std::string_view& bytes, std::size_t& lines) {
   Entries entries;
-  while (!entries.contains("DATA")) {
+  while (!entries.contains("data")) {
     std::string_view line = take_line(bytes);
-    const std::string key(take_word(line));
+    ++lines;
+    const std::string key = plain_key(take_word(line));
     if (key.empty() || key.starts_with('#')) {
       continue;
     }
@@ -53,20 +62,27 @@ Entries take_entries(std::string_view& bytes) {
   return entries;
 }
 
+std::string upper_case(std::string_view key) {
+  std::string upper(key);
+  for (char& c : upper) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  return upper;
+}
+
 const Words& words_of(const Entries& entries, std::string_view key, std::size_t expected) {
   const auto found = entries.find(key);
   if (found == entries.end() || found->second.size() != expected) {
-    throw FormatError(fmt::format("its header line {} is missing or of the wrong length", key));
+    throw FormatError(
+        fmt::format("its header line {} is missing or of the wrong length", upper_case(key)));
   }
   return found->second;
 }
 
 std::vector<Field> parse_fields(const Entries& entries) {
-  const auto names = entries.find("FIELDS");
+  const auto names = entries.find("fields");
   const std::size_t n = names == entries.end() ? 0 : names->second.size();
-  const Words& sizes = words_of(entries, "SIZE", n);
-  const Words& types = words_of(entries, "TYPE", n);
-  const Words counts = entries.contains("COUNT") ? words_of(entries, "COUNT", n) : Words(n, "1");
+  const Words& sizes = words_of(entries, "size", n);
+  const Words& types = words_of(entries, "type", n);
+  const Words counts = entries.contains("count") ? words_of(entries, "count", n) : Words(n, "1");
   std::vector<Field> fields;
   for (std::size_t i = 0; i < n; ++i) {
     const auto type = pcd_scalar(types[i], parse_count(sizes[i]));
@@ -80,22 +96,24 @@ std::vector<Field> parse_fields(const Entries& entries) {
 }
 
 std::uint64_t parse_points(const Entries& entries) {
-  const bool has_points = entries.contains("POINTS");
-  if (!has_points || entries.contains("WIDTH") || entries.contains("HEIGHT")) {
+  const bool has_points = entries.contains("points");
+  if (!has_points || entries.contains("width") || entries.contains("height")) {
     std::uint64_t area = 0;
-    if (__builtin_mul_overflow(parse_count(words_of(entries, "WIDTH", 1)[0]),
-                               parse_count(words_of(entries, "HEIGHT", 1)[0]), &area) ||
-        (has_points && parse_count(words_of(entries, "POINTS", 1)[0]) != area)) {
+    if (__builtin_mul_overflow(parse_count(words_of(entries, "width", 1)[0]),
+                               parse_count(words_of(entries, "height", 1)[0]), &area) ||
+        (has_points && parse_count(words_of(entries, "points", 1)[0]) != area)) {
       throw FormatError("its WIDTH times HEIGHT is not its POINTS");
     }
     return area;
   }
-  return parse_count(words_of(entries, "POINTS", 1)[0]);
+  return parse_count(words_of(entries, "points", 1)[0]);
 }
 
 Header take_header(std::string_view& bytes) {
-  const Entries entries = take_entries(bytes);
-  return {parse_fields(entries), parse_points(entries), words_of(entries, "DATA", 1)[0]};
+  std::size_t lines = 0;
+  const Entries entries = take_entries(bytes, lines);
+  return {parse_fields(entries), parse_points(entries), lower_case(words_of(entries, "data", 1)[0]),
+          lines};
 }
 
 std::uint64_t bytes_per_point(const std::vector<Field>& fields) {
@@ -136,7 +154,9 @@ Cloud read_rows(const Header& header, Cursor cursor) {
     throw FormatError("announces more points than it has");
   }
   rows.reserve(header.points);
+  const std::uint64_t numbers = numbers_per_point(header.fields);
   for (std::uint64_t point = 0; point < header.points; ++point) {
+    cursor.begin_row(numbers);
     for (std::size_t i = 0; i < header.fields.size(); ++i) {
       if (rows.wants(i)) {
         rows.set(i, cursor.next(header.fields[i].type));
@@ -144,8 +164,10 @@ Cloud read_rows(const Header& header, Cursor cursor) {
         cursor.skip(header.fields[i].type, header.fields[i].count);
       }
     }
+    cursor.end_row();
     rows.finish_row();
   }
+  cursor.end();
   return rows.take();
 }
 
@@ -207,6 +229,7 @@ Cloud read_compressed(Header header, std::string_view bytes) {
   if (packed_size > bytes.size() || !is_size_of(size, header)) {
     throw FormatError("announces more or fewer points than it has");
   }
+  BinaryCursor(bytes.substr(packed_size), std::endian::little).end();
   return read_columns(header, unpack(bytes.substr(0, packed_size), size));
 }
 
@@ -215,7 +238,7 @@ Cloud read_compressed(Header header, std::string_view bytes) {
 Cloud parse_pcd(std::string_view bytes) {
   const Header header = take_header(bytes);
   if (header.encoding == "ascii") {
-    return read_rows(header, TextCursor(bytes));
+    return read_rows(header, TextCursor(bytes, header.lines + 1));
   }
   if (header.encoding == "binary") {
     return read_rows(header, BinaryCursor(bytes, std::endian::little));

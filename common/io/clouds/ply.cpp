@@ -1,5 +1,7 @@
 #include "voxlist/io/clouds/ply.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -25,16 +27,17 @@ struct Element {
 };
 
 struct Header {
-  std::string_view format;
+  std::string format;
   std::vector<Element> elements;
+  std::size_t lines = 0;  // of the header
 };
 
 Scalar take_type(std::string_view& line) {
-  const std::string_view name = take_word(line);
+  const std::string name = lower_case(take_word(line));
   if (const auto type = ply_scalar(name)) {
     return *type;
   }
-  throw FormatError("has a property of an unknown type");
+  throw FormatError(fmt::format("has a property of the type \"{}\", which is unknown", name));
 }
 
 Property parse_property(std::string_view line) {
@@ -49,30 +52,45 @@ Property parse_property(std::string_view line) {
   return property;
 }
 
+void take_property(std::string_view line, Header& header) {
+  if (header.elements.empty()) {
+    throw FormatError("has a property before the first element");
+  }
+  header.elements.back().properties.push_back(parse_property(line));
+}
+
+// Takes a line of the header, keywords in any case. False at its end.
+bool take_entry(std::string_view line, Header& header) {
+  const std::string key = lower_case(take_word(line));
+  if (key == "end_header") return false;
+  if (key == "format") {
+    header.format = lower_case(take_word(line));
+  } else if (key == "element") {
+    const std::string name = lower_case(take_word(line));
+    header.elements.push_back({name, parse_count(take_word(line)), {}});
+  } else if (key == "property") {
+    take_property(line, header);
+  } else if (key != "comment" && key != "obj_info" && !key.empty()) {
+    throw FormatError(fmt::format("line {} of its header is unknown", header.lines));
+  }
+  return true;
+}
+
 Header take_header(std::string_view& bytes) {
   Header header;
-  if (take_line(bytes) != "ply") {
+  std::string_view magic = take_line(bytes);
+  if (lower_case(take_word(magic)) != "ply" || !take_word(magic).empty()) {
     throw FormatError("does not start as a PLY file");
   }
-  while (true) {
-    std::string_view line = take_line(bytes);
-    const std::string_view key = take_word(line);
-    if (key == "end_header") {
-      return header;
-    } else if (key == "format") {
-      header.format = take_word(line);
-    } else if (key == "element") {
-      const std::string_view name = take_word(line);
-      header.elements.push_back({std::string(name), parse_count(take_word(line)), {}});
-    } else if (key == "property") {
-      if (header.elements.empty()) {
-        throw FormatError("has a property before the first element");
-      }
-      header.elements.back().properties.push_back(parse_property(line));
-    } else if (key != "comment" && key != "obj_info" && !key.empty()) {
-      throw FormatError("has an unknown line in its header");
-    }
+  for (header.lines = 2; take_entry(take_line(bytes), header); ++header.lines) {
   }
+  return header;
+}
+
+// How many numbers a row has; 0 when lists tell it.
+std::uint64_t numbers_per_row(const Element& element) {
+  const auto is_list = [](const Property& property) { return property.length_type.has_value(); };
+  return std::ranges::any_of(element.properties, is_list) ? 0 : element.properties.size();
 }
 
 template <typename Cursor>
@@ -104,9 +122,11 @@ void skip_element(const Element& element, Cursor& cursor) {
   check_size(element, cursor);
   const std::uint64_t rows = element.properties.empty() ? 0 : element.rows;
   for (std::uint64_t row = 0; row < rows; ++row) {
+    cursor.begin_row(numbers_per_row(element));
     for (const Property& property : element.properties) {
       skip_property(property, cursor);
     }
+    cursor.end_row();
   }
 }
 
@@ -123,7 +143,9 @@ Cloud read_vertices(const Element& vertex, Cursor& cursor) {
   PointRows rows = point_rows(vertex);
   check_size(vertex, cursor);
   rows.reserve(vertex.rows);
+  const std::uint64_t numbers = numbers_per_row(vertex);
   for (std::uint64_t row = 0; row < vertex.rows; ++row) {
+    cursor.begin_row(numbers);
     for (std::size_t column = 0; column < vertex.properties.size(); ++column) {
       if (rows.wants(column)) {
         rows.set(column, cursor.next(vertex.properties[column].type));
@@ -131,20 +153,26 @@ Cloud read_vertices(const Element& vertex, Cursor& cursor) {
         skip_property(vertex.properties[column], cursor);
       }
     }
+    cursor.end_row();
     rows.finish_row();
   }
   return rows.take();
 }
 
+// Elements after the vertices are read, too: what is left over then was announced by nobody.
 template <typename Cursor>
 Cloud read_body(const Header& header, Cursor cursor) {
+  std::optional<Cloud> cloud;
   for (const Element& element : header.elements) {
-    if (element.name == "vertex") {
-      return read_vertices(element, cursor);
+    if (element.name == "vertex" && !cloud) {
+      cloud = read_vertices(element, cursor);
+    } else {
+      skip_element(element, cursor);
     }
-    skip_element(element, cursor);
   }
-  throw FormatError("has no vertex element");
+  if (!cloud) throw FormatError("has no vertex element");
+  cursor.end();
+  return *std::move(cloud);
 }
 
 }  // namespace
@@ -152,7 +180,7 @@ Cloud read_body(const Header& header, Cursor cursor) {
 Cloud parse_ply(std::string_view bytes) {
   const Header header = take_header(bytes);
   if (header.format == "ascii") {
-    return read_body(header, TextCursor(bytes));
+    return read_body(header, TextCursor(bytes, header.lines + 1));
   }
   if (header.format == "binary_little_endian") {
     return read_body(header, BinaryCursor(bytes, std::endian::little));

@@ -56,11 +56,13 @@ std::size_t size_of(Scalar type) { return info(type).size; }
 double decode(Scalar type, const char* at, std::endian order) { return info(type).load(at, order); }
 
 std::optional<Scalar> ply_scalar(std::string_view name) {
+  if (name == "bool") return Scalar::kUint8;
   return find_type(
       [&](const TypeInfo& t) { return t.ply_name == name || t.ply_sized_name == name; });
 }
 
 std::optional<Scalar> pcd_scalar(std::string_view type, std::size_t size) {
+  if (type == "B" && size == 1) return Scalar::kUint8;
   return find_type([&](const TypeInfo& t) {
     return type == std::string_view(&t.pcd_type, 1) && t.size == size;
   });

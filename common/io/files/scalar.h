@@ -27,10 +27,11 @@ std::size_t size_of(Scalar type);
 /// The number whose size_of(type) bytes start at `at`.
 double decode(Scalar type, const char* at, std::endian order);
 
-/// The type that a PLY header calls `name` (int, int32, float, float32, ...), if there is one.
+/// The type that a PLY header calls `name` (int, int32, float, float32, bool, ...), if there is
+/// one.
 std::optional<Scalar> ply_scalar(std::string_view name);
 
-/// The type of a PCD header's TYPE (I, U, F) and SIZE (bytes), if there is one.
+/// The type of a PCD header's TYPE (I, U, F, B) and SIZE (bytes), if there is one.
 std::optional<Scalar> pcd_scalar(std::string_view type, std::size_t size);
 
 }  // namespace voxlist::io

@@ -32,7 +32,7 @@ std::int64_t lowest_overlap(const ChanceModel& m) {
 
 std::int64_t highest_overlap(const ChanceModel& m) { return std::min(m.scan_voxels, m.map_voxels); }
 
-// Of a small whole number.
+// The factorial of a small whole number.
 double factorial(double x) {
   double product = 1.0;
   for (double i = 2.0; i <= x; i += 1.0) product *= i;

@@ -5,7 +5,7 @@
 namespace voxlist::desk {
 namespace {
 
-// Of each reason so many are told one by one; the rest is only counted, so that a damaged log does
+// Omissions told one by one for each reason; the rest is only counted, so that a damaged log does
 // not flood the terminal.
 constexpr std::int64_t kToldOfEach = 3;
 
