@@ -22,5 +22,6 @@ void add_evaluate(CLI::App& program, Command& chosen);
 void add_simulate(CLI::App& program, Command& chosen);
 void add_calibrate(CLI::App& program, Command& chosen);
 void add_watch(CLI::App& program, Command& chosen);
+void add_health(CLI::App& program, Command& chosen);
 
 }  // namespace voxlist::desk

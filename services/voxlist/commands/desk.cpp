@@ -42,6 +42,7 @@ int run_desk(std::vector<std::string> arguments, Console& console) {
   add_calibrate(program, chosen);
 #endif
   add_watch(program, chosen);
+  add_health(program, chosen);
   try {
     std::ranges::reverse(arguments);  // as CLI11 wants them
     program.parse(std::move(arguments));

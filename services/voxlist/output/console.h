@@ -2,6 +2,7 @@
 
 #include <iosfwd>
 #include <string>
+#include <vector>
 
 namespace voxlist::desk {
 
@@ -23,7 +24,11 @@ class Console {
   /// Draws a line that the next one replaces. Only on a terminal.
   void draw(const std::string& line);
 
-  /// Takes the drawn line away.
+  /// Lines about how it is now. On a terminal the next ones replace them; elsewhere each is told as
+  /// by warn().
+  void show(const std::vector<std::string>& lines);
+
+  /// Takes what was drawn away.
   void erase();
 
  private:
@@ -31,6 +36,7 @@ class Console {
   std::ostream& err_;
   const bool terminal_;
   bool drawn_ = false;
+  std::size_t lines_above_ = 0;  // of those shown, above the cursor
 };
 
 }  // namespace voxlist::desk
