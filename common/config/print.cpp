@@ -71,6 +71,10 @@ class TextVisitor : public SettingsVisitor {
   void operator()(const char* key, std::vector<std::string>& value, const char* doc) override {
     line(key, toml_text(value), doc, "");
   }
+  void choice(const char* key, std::size_t& chosen, std::span<const char* const> names,
+              const char* doc) override {
+    line(key, toml_text(std::string(names[chosen])), doc, "");
+  }
 
   std::string text;
 

@@ -60,6 +60,12 @@ std::string listed(const std::set<std::string>& names) {
   return text;
 }
 
+std::string one_of(std::span<const char* const> names) {
+  std::string text;
+  for (const char* name : names) text += (text.empty() ? "" : " or ") + std::string(name);
+  return text;
+}
+
 // Takes the keys of one struct from one table.
 class Reader : public SettingsVisitor {
  public:
@@ -82,6 +88,17 @@ class Reader : public SettingsVisitor {
   }
   void operator()(const char* key, std::vector<std::string>& values, const char*) override {
     read_list(key, values);
+  }
+  void choice(const char* key, std::size_t& chosen, std::span<const char* const> names,
+              const char*) override {
+    std::string name = names[chosen];
+    const toml::node* node = read(key, name);
+    if (!node) return;
+    const auto found = std::ranges::find(names, name);
+    if (found == names.end())
+      complain(*node, key, "is \"" + name + "\", must be " + one_of(names));
+    else
+      chosen = static_cast<std::size_t>(found - names.begin());
   }
 
   /// What is wrong with the keys that members asked for.

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -30,6 +32,20 @@ class SettingsVisitor {
   virtual void operator()(const char* key, std::vector<double>& value, const char* doc, double min,
                           double max) = 0;
   virtual void operator()(const char* key, std::vector<std::string>& value, const char* doc) = 0;
+
+  /// An enum whose values 0, 1, ... have these names in the file.
+  template <class Enum, std::size_t kNames>
+  void operator()(const char* key, Enum& value, const std::array<const char*, kNames>& names,
+                  const char* doc) {
+    auto chosen = static_cast<std::size_t>(value);
+    choice(key, chosen, names, doc);
+    value = static_cast<Enum>(chosen);
+  }
+
+ protected:
+  /// One of the names, by its number.
+  virtual void choice(const char* key, std::size_t& chosen, std::span<const char* const> names,
+                      const char* doc) = 0;
 };
 
 }  // namespace voxlist::config

@@ -20,6 +20,12 @@ inline std::uint64_t key_of(const Voxel& v) {
 /// The layer of a key's cell: ascending, the same for cells of the same height.
 inline std::uint64_t layer_of(std::uint64_t key) { return key >> 42; }
 
+/// The key of the cell of twice the edge that holds a key's cell; its layers, too, are ascending.
+inline std::uint64_t halved_key(std::uint64_t key) {
+  constexpr std::uint64_t kPart = 0x1fffff;
+  return (key >> 43) << 42 | ((key >> 21 & kPart) >> 1) << 21 | (key & kPart) >> 1;
+}
+
 /// The finaliser of splitmix64: every input bit reaches every output bit.
 inline std::uint64_t mixed(std::uint64_t value) {
   value = (value ^ (value >> 30)) * 0xbf58476d1ce4e5b9u;

@@ -33,7 +33,7 @@ localisation_t to_message(const matching::Localisation& result) {
     out.pose[1] = mode.T_map_base.y_m;
     out.pose[2] = mode.T_map_base.yaw_rad;
     for (int i = 0; i < 9; ++i) out.covariance[i] = mode.covariance(i / 3, i % 3);
-    out.overlap = mode.overlap;
+    out.overlap = mode.overlap_ratio;
     out.probability = mode.probability;
     message.modes.push_back(out);
   }

@@ -143,8 +143,8 @@ class Bench {
     const int listed = right_mode(result, truth, kind.foreign);
     for (std::size_t m = 0; m < result.modes.size(); ++m)
       modes_ << kind.name << ',' << seed << ',' << query << ',' << m << ','
-             << (static_cast<int>(m) == listed) << ',' << result.modes[m].support << ','
-             << result.modes[m].even_support << ',' << result.unseen << '\n';
+             << (static_cast<int>(m) == listed) << ',' << result.modes[m].support.near << ','
+             << result.modes[m].support.even << ',' << result.unseen << '\n';
   }
 
   // Until the robot is sure, or ten scans have not sufficed.

@@ -35,7 +35,7 @@ bool is_at(const Pose2& pose, const Pose2& truth) {
 
 const matching::MatchMode& most_overlap(const std::vector<matching::MatchMode>& modes) {
   return *std::max_element(modes.begin(), modes.end(),
-                           [](auto& a, auto& b) { return a.overlap < b.overlap; });
+                           [](auto& a, auto& b) { return a.overlap_ratio < b.overlap_ratio; });
 }
 
 struct Tally {
@@ -116,7 +116,7 @@ Tally run(const TestFloor& floor, const Case& test, matching::Matcher& matcher, 
     const auto seed = static_cast<std::uint64_t>(1'000'000 + tally.queries);
     const Cloud scan = scan_in(floor, test, truth, seed);
     const double start_ms = cpu_ms();
-    const matching::Match match = matcher.match(scan, std::nullopt);
+    const matching::Match match = matcher.match(matching::PreparedScan(scan), std::nullopt);
     tally.add(match, truth, test.foreign, cpu_ms() - start_ms);
     if (listed) list(match, truth);
   }
@@ -132,7 +132,8 @@ std::vector<Figure> run_floor(const TestFloorConfig& config, int queries, bool l
       {"another building", make_floor(elsewhere(config).wing, config.wings), true, 0}};
   const auto matcher = matching::make_matcher(floor.map, {});
   const double start_ms = cpu_ms();
-  matcher->match(scan_in(floor, cases[0], {}, 1), std::nullopt);
+  const Cloud first = scan_in(floor, cases[0], {}, 1);
+  matcher->match(matching::PreparedScan(first), std::nullopt);
   std::printf("%s: %zu voxels, first query with preparation %.0f ms\n", floor.name.c_str(),
               floor.map.occupied.size(), cpu_ms() - start_ms);
   std::vector<Figure> figures;

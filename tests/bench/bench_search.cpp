@@ -46,7 +46,7 @@ Answer answer(double seconds, const Pose2* pose, const Pose2& truth) {
 
 Answer ask_ours(matching::Matcher& matcher, const Cloud& scan, const Pose2& truth) {
   const double start = cpu_s();
-  const matching::Match match = matcher.match(scan, std::nullopt);
+  const matching::Match match = matcher.match(matching::PreparedScan(scan), std::nullopt);
   return answer(cpu_s() - start, match.modes.empty() ? nullptr : &match.modes.front().pose, truth);
 }
 
@@ -113,7 +113,8 @@ void print(const char* name, const Answer& row) {
 std::vector<Figure> run(const TestFloorConfig& config, int queries, FilterLog log) {
   const TestFloor floor = make_test_floor(config);
   const auto matcher = matching::make_matcher(floor.map, {});
-  matcher->match(scan_at(floor.building, {}, 0, 1), std::nullopt);  // makes the map ready
+  const Cloud first = scan_at(floor.building, {}, 0, 1);
+  matcher->match(matching::PreparedScan(first), std::nullopt);  // makes the map ready
   simulation::Random random(4711);
   Tally ours, filter;
   for (int query = 0; query < queries; ++query) {

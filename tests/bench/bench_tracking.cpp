@@ -98,9 +98,10 @@ std::vector<Figure> run(const Case& test, const TestFloor& floor, const simulati
                           wrap_angle(truth.yaw_rad + turn)};
     // A tracked scan finds the map ready: the one before was taken near by.
     const matching::PoseWindow window{predicted, test.half_m, test.half_m, test.half_rad};
-    matcher.match(scan_at(now, truth, 0, seed + 500'000), window);
+    const Cloud before = scan_at(now, truth, 0, seed + 500'000);
+    matcher.match(matching::PreparedScan(before), window);
     const double start_ms = cpu_ms();
-    const matching::Match match = matcher.match(scan, window);
+    const matching::Match match = matcher.match(matching::PreparedScan(scan), window);
     tally.add(match, truth, cpu_ms() - start_ms);
   }
   print("  " + tally.name, tally.figures());

@@ -152,5 +152,28 @@ TEST_F(ReadConfig, ReadsBackExactlyWhatIsPrinted) {
   EXPECT_EQ(to_toml({section("sample", sample_)}), printed);
 }
 
+enum class Way { kLeft, kRight };
+
+struct WayConfig {
+  Way way = Way::kLeft;
+  void visit(SettingsVisitor& v) { v("way", way, std::array{"left", "right"}, "where to"); }
+};
+
+TEST_F(ReadConfig, TakesAnEnumByItsName) {
+  WayConfig config;
+  std::ofstream(file()) << "[go]\nway = 'right'\n";
+  EXPECT_THAT(read_config(file(), {section("go", config)}), IsEmpty());
+  EXPECT_EQ(config.way, Way::kRight);
+  EXPECT_THAT(to_toml({section("go", config)}), HasSubstr("way = \"right\"\n"));
+}
+
+TEST_F(ReadConfig, RefusesANameThatAnEnumDoesNotHave) {
+  WayConfig config;
+  std::ofstream(file()) << "[go]\nway = 'up'\n";
+  EXPECT_THAT(read_config(file(), {section("go", config)}),
+              ElementsAre(HasSubstr("go.way is \"up\", must be left or right")));
+  EXPECT_EQ(config.way, Way::kLeft);
+}
+
 }  // namespace
 }  // namespace voxlist::config

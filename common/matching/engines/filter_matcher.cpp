@@ -5,44 +5,73 @@
 #include <numbers>
 
 #include "voxlist/geometry/elementary.h"
+#include "voxlist/matching/engines/global_matcher.h"
 #include "voxlist/matching/engines/match_modes.h"
 #include "voxlist/matching/paper/particle_filter.h"
 
 namespace voxlist::matching {
 namespace {
 
+// Most particles that are refined, distinct in pose. One refinement takes about 1 ms, the filter
+// seconds.
+constexpr std::size_t kMostModes = 8;
+
+// A filter cannot tell what it has lost. That it has lost no mode that a complete search would list
+// is taken for granted, and nowhere proven.
+constexpr double kUnseen = kModeRatio;
+
+// How often the finest voxel of the filter is halved to come to the map's: 2^6 x 0.02 m is 1.28 m,
+// the paper's coarsest level.
+constexpr int kMostHalvings = 6;
+
+int final_factor(const VoxelMap& map, const MatcherConfig& config) {
+  const double factor = config.resolution_m / map.resolution_m();
+  return 1 << std::clamp(static_cast<int>(std::lround(elementary::log(factor) / std::numbers::ln2)),
+                         0, kMostHalvings);
+}
+
+std::int64_t poses_examined(const ParticleFilterResult& found) {
+  std::int64_t poses = 0;
+  for (const ParticleFilterLevel& level : found.levels)
+    poses += static_cast<std::int64_t>(level.particles);
+  return poses;
+}
+
+// The best particles that are distinct in pose.
+std::vector<MatchMode> candidates_of(const ParticleFilterResult& found) {
+  const ParticleFilterLevel& last = found.levels.back();
+  const double voxels =
+      static_cast<double>(last.weighing.look_ups) / static_cast<double>(last.particles);
+  std::vector<MatchMode> candidates;
+  for (const Particle& particle : found.particles) {
+    if (candidates.size() == kMostModes) break;
+    if (!holds(candidates, particle.pose))
+      candidates.push_back(candidate(particle.pose, particle.weight / voxels));
+  }
+  return candidates;
+}
+
 class ParticleFilterMatcher : public Matcher {
  public:
   ParticleFilterMatcher(const OccupancyMap& map, const MatcherConfig& config)
       : map_(map), config_(config) {}
 
-  Match match(const Cloud& cloud, const std::optional<PoseWindow>& window) override {
-    const MatchPoints scan = choose_match_points(cloud, {.max_range_m = config_.max_range_m,
-                                                         .spacing_m = 0.05,
-                                                         .max_points = config_.refine_points});
-    if (scan.points.size() < kFewestMatchPoints) return {};
+  Match match(const PreparedScan& scan, const std::optional<PoseWindow>& window) override {
+    const MatchPoints& points = scan.points();
+    if (points.points.size() < kFewestMatchPoints) return {};
     const auto found =
-        ready().filter.localise(scan.points, window.value_or(whole_map(map_.occupied)));
+        ready().filter.localise(scan.filter_points(), window.value_or(whole_map(map_.occupied)));
     Match match;
-    for (const auto& level : found.levels)
-      match.poses_examined += static_cast<std::int64_t>(level.particles);
+    match.poses_examined = poses_examined(found);
     if (found.particles.empty()) return match;
     match.complete = !found.truncated;
-    // Taken for granted: a filter cannot tell what it has lost.
-    match.unseen = match.complete ? 0.88 : 1.0;
-    const auto& last = found.levels.back();
-    const double voxels =
-        static_cast<double>(last.weighing.look_ups) / static_cast<double>(last.particles);
-    std::vector<MatchMode> candidates;
-    for (const Particle& particle : found.particles) {
-      if (candidates.size() == SearchConfig().max_modes) break;
-      if (!holds(candidates, particle.pose))
-        candidates.push_back(candidate(particle.pose, particle.weight / voxels));
-    }
-    match.modes = refined(ready().surfels, scan, candidates);
-    weigh(ready().evidence, choose_evidence_rays(cloud), match);
+    match.unseen = match.complete ? kUnseen : 1.0;
+    match.modes = refined(ready().surfels, points, candidates_of(found));
+    rank(ready().evidence, scan.few_rays(), match.modes);
     return match;
   }
+
+  const EvidenceMap& evidence() override { return ready().evidence; }
 
   void map_grew(const ChangedBlocks&) override { ready_.reset(); }
 
@@ -61,12 +90,6 @@ class ParticleFilterMatcher : public Matcher {
           SurfelMap(map_), EvidenceMap(map_)});
     }
     return *ready_;
-  }
-
-  static int final_factor(const VoxelMap& map, const MatcherConfig& config) {
-    const double factor = config.resolution_m / map.resolution_m();
-    return 1 << std::clamp(
-               static_cast<int>(std::lround(elementary::log(factor) / std::numbers::ln2)), 0, 6);
   }
 
   const OccupancyMap& map_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "voxlist/matching/engines/matcher.h"
@@ -12,7 +13,7 @@
 namespace voxlist::matching {
 
 /// A mode that is not refined yet.
-MatchMode candidate(const Pose2& pose, double overlap);
+MatchMode candidate(const Pose2& pose, double overlap_ratio);
 
 /// A search's modes, to be refined. `points`: how many were counted.
 std::vector<MatchMode> candidates_of(const SearchResult& found, std::size_t points);
@@ -25,12 +26,8 @@ std::vector<MatchMode> refined(const SurfelMap& surfels, const RayPoints& points
                                const std::vector<MatchMode>& candidates,
                                const RefineConfig& config = {});
 
-/// How much evidence speaks for a pose, at most 1: the share of hits among the ends of rays of
-/// which the map knows anything, less what rays went through. Unknown space hardly counts.
-double support(const Evidence& evidence);
-
-/// Weighs the match's modes by a scan's rays, and sorts them by their support.
-void weigh(const EvidenceMap& map, const std::vector<EvidenceRay>& rays, Match& match);
+/// Weighs modes by a scan's rays, and sorts them by their support, the best first.
+void rank(const EvidenceMap& map, std::span<const ScanRay> rays, std::vector<MatchMode>& modes);
 
 /// log10 significance of the best of `poses` poses (paper, section IV): `occupied` of `volume`
 /// cells, and an overlap of that many of the points.

@@ -1,7 +1,5 @@
 #include "voxlist/matching/engines/matcher.h"
 
-#include <stdexcept>
-
 #include "voxlist/matching/engines/filter_matcher.h"
 #include "voxlist/matching/engines/global_matcher.h"
 #include "voxlist/matching/engines/window_matcher.h"
@@ -12,22 +10,32 @@ namespace {
 class SearchMatcher : public Matcher {
  public:
   SearchMatcher(const OccupancyMap& map, const MatcherConfig& config)
-      : surfels_(map), global_(map, surfels_, config), window_(map, surfels_, config) {}
+      : map_(map), surfels_(map), global_(map, surfels_, config), window_(map, surfels_) {}
 
-  Match match(const Cloud& scan, const std::optional<PoseWindow>& window) override {
-    return window ? window_.match(scan, *window) : global_.match(scan);
+  Match match(const PreparedScan& scan, const std::optional<PoseWindow>& window) override {
+    return window ? window_.match(scan, *window) : global_.match(scan, evidence());
   }
 
-  Match match_rivals(const Cloud& scan) override { return global_.match_rivals(scan); }
+  Match match_rivals(const PreparedScan& scan) override {
+    return global_.match_rivals(scan, evidence());
+  }
+
+  const EvidenceMap& evidence() override {
+    if (!evidence_) evidence_.emplace(map_);
+    return *evidence_;
+  }
 
   void map_grew(const ChangedBlocks& grown) override {
     surfels_.map_changed();
     global_.map_changed();
     window_.map_grew(grown);
+    if (evidence_) evidence_->map_grew(grown);
   }
 
  private:
+  const OccupancyMap& map_;
   SurfelMap surfels_;
+  std::optional<EvidenceMap> evidence_;
   GlobalMatcher global_;
   WindowMatcher window_;
 };
@@ -35,10 +43,13 @@ class SearchMatcher : public Matcher {
 }  // namespace
 
 std::unique_ptr<Matcher> make_matcher(const OccupancyMap& map, const MatcherConfig& config) {
-  if (config.engine == "search") return std::make_unique<SearchMatcher>(map, config);
-  if (config.engine == "particle_filter") return make_filter_matcher(map, config);
-  throw std::invalid_argument("engine = \"" + config.engine +
-                              "\": must be search or particle_filter");
+  switch (config.engine) {
+    case Engine::kParticleFilter:
+      return make_filter_matcher(map, config);
+    case Engine::kSearch:
+      break;
+  }
+  return std::make_unique<SearchMatcher>(map, config);
 }
 
 }  // namespace voxlist::matching

@@ -8,64 +8,62 @@
 namespace voxlist::matching {
 namespace {
 
-// Points that are counted: more tell poses no better apart, the lattice is too coarse for that.
-constexpr std::size_t kCountedPoints = 400;
+// Slips of less than a step of the robot matter in a window: modes overlap at least this share of
+// what the best does, and poses nearer than this distance and turn are one mode.
+constexpr SearchConfig kModes{.mode_ratio = 0.9, .mode_distance_m = 0.3, .mode_turn_rad = 0.1};
 
-// A first refinement leaves a millimetre or two to a second one.
+// A first refinement ends at steps of this (m) and leaves a millimetre or two to a second one.
 constexpr RefineConfig kRough{.converged_m = 1e-3};
-// Modes that fit so much worse than the best are left as the first refinement has them.
+
+// Modes whose inlier ratio is so much below the best one's are left as the first refinement has
+// them: the second moves a pose by millimetres, and its inlier ratio by less than this.
 constexpr double kContends = 0.05;
 
-void by_fit(std::vector<MatchMode>& modes) {
+void sort_by_inliers(std::vector<MatchMode>& modes) {
   std::stable_sort(modes.begin(), modes.end(),
-                   [](const auto& a, const auto& b) { return a.fit > b.fit; });
+                   [](const auto& a, const auto& b) { return a.inlier_ratio > b.inlier_ratio; });
+}
+
+// Refines those of the sorted modes again that may be best in the end.
+void refine_contenders(const SurfelMap& surfels, const MatchPoints& points,
+                       std::vector<MatchMode>& modes) {
+  const double least = modes.front().inlier_ratio - kContends;
+  const auto rest = std::find_if(modes.begin(), modes.end(),
+                                 [&](const MatchMode& mode) { return mode.inlier_ratio < least; });
+  const std::vector<MatchMode> others(rest, modes.end());
+  modes.erase(rest, modes.end());
+  modes = refined(surfels, points, modes);
+  std::copy_if(others.begin(), others.end(), std::back_inserter(modes),
+               [&](const MatchMode& mode) { return !holds(modes, mode.pose); });
+  sort_by_inliers(modes);
 }
 
 }  // namespace
 
-WindowMatcher::WindowMatcher(const OccupancyMap& map, const SurfelMap& surfels,
-                             const MatcherConfig& config)
-    : surfels_(surfels),
-      config_(config),
-      cell_m_(WindowMap::cell_m(map.occupied)),
-      window_map_(map.occupied) {}
+WindowMatcher::WindowMatcher(const OccupancyMap& map, const SurfelMap& surfels)
+    : surfels_(surfels), cell_m_(WindowMap::cell_m(map.occupied)), window_map_(map.occupied) {}
 
-Match WindowMatcher::match(const Cloud& cloud, const PoseWindow& window) {
-  const MatchPoints scan = choose_match_points(
-      cloud,
-      {.max_range_m = config_.max_range_m, .spacing_m = 0.1, .max_points = config_.refine_points});
-  if (scan.points.size() < kFewestMatchPoints) return {};
-  const MatchPoints counted = some_of(scan, kCountedPoints);
-  SearchConfig config;
-  // Slips of less than a step of the robot matter here.
-  config.mode_ratio = 0.9;
-  config.mode_distance_m = 0.3;
-  config.mode_turn_rad = 0.1;
+Match WindowMatcher::match(const PreparedScan& scan, const PoseWindow& window) {
+  if (scan.points().points.size() < kFewestMatchPoints) return {};
+  const MatchPoints& counted = scan.few_points();
   const CellRectangle ground = needed_ground(cell_m_, counted.radius_m, window);
   window_map_.hold(ground);
-  const SearchResult found = search_window(window_map_, cell_m_, counted, window, config);
-  Match match;
-  match.certified = found.certified;
-  match.complete = found.complete;
-  match.poses_examined = found.poses_examined;
+  const SearchResult found = search_window(window_map_, cell_m_, counted, window, kModes);
+  Match match(found);
   if (found.modes.empty()) return match;
   // Most of the way with few points: many candidates go to the same place.
   match.modes = refined(surfels_, counted, candidates_of(found, counted.points.size()), kRough);
-  by_fit(match.modes);
-  // The rest with all: of those that may be best in the end.
-  const double least = match.modes.front().fit - kContends;
-  const auto rest = std::find_if(match.modes.begin(), match.modes.end(),
-                                 [&](const MatchMode& mode) { return mode.fit < least; });
-  std::vector<MatchMode> others(rest, match.modes.end());
-  match.modes.erase(rest, match.modes.end());
-  match.modes = refined(surfels_, scan, match.modes);
-  std::copy_if(others.begin(), others.end(), std::back_inserter(match.modes),
-               [&](const MatchMode& mode) { return !holds(match.modes, mode.pose); });
-  by_fit(match.modes);
-  const WindowMap::Count count = window_map_.count(ground);
-  match.significance_log10 = log10_significance(count.cells, count.occupied, counted.points.size(),
-                                                found.modes.front().overlap, found.lattice_poses);
+  sort_by_inliers(match.modes);
+  refine_contenders(surfels_, scan.points(), match.modes);
+  match.significance_log10 = significance_log10(ground, counted.points.size(), found);
   return match;
+}
+
+double WindowMatcher::significance_log10(const CellRectangle& ground, std::size_t points,
+                                         const SearchResult& found) const {
+  const WindowMap::Count count = window_map_.count(ground);
+  return log10_significance(count.cells, count.occupied, points, found.modes.front().overlap,
+                            found.lattice_poses);
 }
 
 }  // namespace voxlist::matching

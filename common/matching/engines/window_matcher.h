@@ -11,16 +11,18 @@ namespace voxlist::matching {
 /// refines the best. Both maps must outlive it.
 class WindowMatcher {
  public:
-  WindowMatcher(const OccupancyMap& map, const SurfelMap& surfels, const MatcherConfig& config);
+  WindowMatcher(const OccupancyMap& map, const SurfelMap& surfels);
 
-  Match match(const Cloud& scan, const PoseWindow& window);
+  Match match(const PreparedScan& scan, const PoseWindow& window);
 
   /// These blocks of the map have gained voxels.
   void map_grew(const ChangedBlocks& grown) { window_map_.map_grew(grown.occupied); }
 
  private:
+  double significance_log10(const CellRectangle& ground, std::size_t points,
+                            const SearchResult& found) const;
+
   const SurfelMap& surfels_;
-  const MatcherConfig config_;
   const double cell_m_;
   WindowMap window_map_;
 };

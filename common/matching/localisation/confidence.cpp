@@ -21,28 +21,29 @@ double log_unexplained(double support, double slack) {
 
 }  // namespace
 
-Odds& Odds::operator+=(const Odds& other) {
-  place += other.place;
-  found += other.found;
+LogOdds& LogOdds::operator+=(const LogOdds& other) {
+  among += other.among;
+  at_all += other.at_all;
   return *this;
 }
 
-Odds odds_of(const PlaceSupport& support, double rival, const ScanWeight& weight) {
+LogOdds log_odds_of(const PoseSupport& support, double rival, const ScanWeight& weight) {
   const double here = log_unexplained(support.even, kEvenSlack);
   const double ahead = std::max(0.0, log_unexplained(rival, kEvenSlack) - here);
-  return {-weight.place * kPlacePower * log_unexplained(support.near, kNearSlack),
-          weight.found * (kFoundBias - kFoundSupport * here + kFoundRival * ahead)};
+  return {-weight.among * kPlacePower * log_unexplained(support.near, kNearSlack),
+          weight.at_all * (kFoundBias - kFoundSupport * here + kFoundRival * ahead)};
 }
 
-std::vector<double> probabilities(std::span<const Odds> places) {
-  if (places.empty()) return {};
-  const auto best = std::max_element(
-      places.begin(), places.end(), [](const Odds& a, const Odds& b) { return a.place < b.place; });
-  const double found = 1.0 / (1.0 + elementary::exp(-best->found));
+std::vector<double> probabilities(std::span<const LogOdds> hypotheses) {
+  if (hypotheses.empty()) return {};
+  const auto best =
+      std::max_element(hypotheses.begin(), hypotheses.end(),
+                       [](const LogOdds& a, const LogOdds& b) { return a.among < b.among; });
+  const double found = 1.0 / (1.0 + elementary::exp(-best->at_all));
   std::vector<double> result;
   double sum = 0.0;
-  for (const Odds& odds : places) {
-    result.push_back(elementary::exp(odds.place - best->place));
+  for (const LogOdds& odds : hypotheses) {
+    result.push_back(elementary::exp(odds.among - best->among));
     sum += result.back();
   }
   for (double& p : result) p *= found / sum;

@@ -1,16 +1,15 @@
 #include "voxlist/matching/localisation/hypotheses.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace voxlist::matching {
 namespace {
 
-// Poses nearer than this are one place; so is a place found again after a motion.
-constexpr double kSamePlace_m = 0.4, kSamePlace_rad = 0.15;
-// Most places that are followed.
-constexpr std::size_t kMostPlaces = 40;
-// Less probable than the best by this factor's logarithm: given up.
+// Poses nearer than this are one hypothesis, as is one that is found again after a motion.
+constexpr double kSame_m = 0.4, kSame_rad = 0.15;
+// Most hypotheses that are followed.
+constexpr std::size_t kMostHypotheses = 40;
+// Less probable than the best by this factor's natural logarithm: given up.
 constexpr double kHopeless = 30.0;
 // A scan after the first counts this much once the robot has moved that far (m), and in proportion
 // before: neighbouring scans see the same things, and err together. Most of all they do so in a
@@ -18,80 +17,99 @@ constexpr double kHopeless = 30.0;
 constexpr ScanWeight kNext{0.5, 0.15};
 constexpr double kNextDistance_m = 0.5;
 
-bool same_place(const Pose2& a, const Pose2& b) {
-  return distance_m(a, b) < kSamePlace_m && turn_rad(a, b) < kSamePlace_rad;
+bool same_pose(const PoseMode& a, const Pose2& b) {
+  return distance_m(a.T_map_base, b) < kSame_m && turn_rad(a.T_map_base, b) < kSame_rad;
+}
+
+// What a scan says of a pose that it did not list: at best as good as the worst that it listed, and
+// as what was not looked for.
+LogOdds odds_of_unlisted(const std::vector<PoseMode>& candidates, double unseen,
+                         const ScanWeight& weight) {
+  PoseSupport worst{1.0, 1.0}, best;
+  for (const PoseMode& candidate : candidates) {
+    const PoseSupport& support = candidate.support;
+    worst = {std::min(worst.near, support.near), std::min(worst.even, support.even)};
+    best = {std::max(best.near, support.near), std::max(best.even, support.even)};
+  }
+  return log_odds_of(
+      {std::min(worst.near, unseen * best.near), std::min(worst.even, unseen * best.even)},
+      best.even, weight);
 }
 
 }  // namespace
 
 double rival_support(const PoseMode& candidate, const std::vector<PoseMode>& all, double unseen) {
-  double best = unseen * candidate.even_support;
+  double best = unseen * candidate.support.even;
   for (const PoseMode& other : all)
-    if (!same_place(other.T_map_base, candidate.T_map_base))
-      best = std::max(best, other.even_support);
+    if (!same_pose(other, candidate.T_map_base)) best = std::max(best, other.support.even);
   return best;
 }
 
 void Hypotheses::clear() { *this = {}; }
 
 void Hypotheses::move(const Pose2& motion) {
-  for (Place& place : places_) place.mode.T_map_base = place.mode.T_map_base * motion;
+  for (Hypothesis& hypothesis : hypotheses_)
+    hypothesis.mode.T_map_base = hypothesis.mode.T_map_base * motion;
   moved_m_ += distance_m({}, motion);
 }
 
-std::vector<PoseMode> Hypotheses::places() const {
+std::vector<PoseMode> Hypotheses::poses() const {
   std::vector<PoseMode> modes;
-  for (const Place& place : places_) modes.push_back(place.mode);
+  for (const Hypothesis& hypothesis : hypotheses_) modes.push_back(hypothesis.mode);
   return modes;
 }
 
-Odds Hypotheses::past(const Pose2& pose) const {
-  const auto found = std::find_if(places_.begin(), places_.end(), [&](const Place& place) {
-    return same_place(place.mode.T_map_base, pose);
-  });
-  return found == places_.end() ? unlisted_ : found->odds;
-}
-
-void Hypotheses::weigh(const std::vector<PoseMode>& candidates, double unseen) {
+void Hypotheses::update(const std::vector<PoseMode>& candidates, double unseen) {
   if (empty()) clear();
-  const double share = std::min(1.0, moved_m_ / kNextDistance_m);
-  const ScanWeight weight =
-      empty() ? ScanWeight{} : ScanWeight{share * kNext.place, share * kNext.found};
+  const ScanWeight weight = weight_of_scan();
   moved_m_ = 0.0;
-  std::vector<Place> now;
-  PlaceSupport worst{1.0, 1.0}, best;
+  std::vector<Hypothesis> now;
   for (const PoseMode& candidate : candidates) {
-    const PlaceSupport supported{candidate.support, candidate.even_support};
-    Place place{candidate, past(candidate.T_map_base)};
-    place.odds += odds_of(supported, rival_support(candidate, candidates, unseen), weight);
-    now.push_back(place);
-    worst = {std::min(worst.near, supported.near), std::min(worst.even, supported.even)};
-    best = {std::max(best.near, supported.near), std::max(best.even, supported.even)};
+    Hypothesis hypothesis{candidate, past(candidate.T_map_base)};
+    hypothesis.odds +=
+        log_odds_of(candidate.support, rival_support(candidate, candidates, unseen), weight);
+    now.push_back(hypothesis);
   }
-  // At best as good as the worst that was listed, and as what was not looked for.
-  if (!candidates.empty())
-    unlisted_ += odds_of(
-        {std::min(worst.near, unseen * best.near), std::min(worst.even, unseen * best.even)},
-        best.even, weight);
-  std::stable_sort(now.begin(), now.end(),
-                   [](const Place& a, const Place& b) { return a.odds.place > b.odds.place; });
-  places_.clear();
-  for (const Place& place : now) {
-    const bool known = std::any_of(places_.begin(), places_.end(), [&](const Place& other) {
-      return same_place(other.mode.T_map_base, place.mode.T_map_base);
-    });
-    const bool hopeless = place.odds.place < now.front().odds.place - kHopeless;
-    if (!known && !hopeless && places_.size() < kMostPlaces) places_.push_back(place);
-  }
+  if (!candidates.empty()) unlisted_ += odds_of_unlisted(candidates, unseen, weight);
+  std::stable_sort(now.begin(), now.end(), [](const Hypothesis& a, const Hypothesis& b) {
+    return a.odds.among > b.odds.among;
+  });
+  keep_distinct(now);
 }
 
 std::vector<PoseMode> Hypotheses::modes() const {
-  std::vector<Odds> odds;
-  for (const Place& place : places_) odds.push_back(place.odds);
+  std::vector<LogOdds> odds;
+  for (const Hypothesis& hypothesis : hypotheses_) odds.push_back(hypothesis.odds);
   const std::vector<double> probability = probabilities(odds);
-  std::vector<PoseMode> modes = places();
+  std::vector<PoseMode> modes = poses();
   for (std::size_t i = 0; i < modes.size(); ++i) modes[i].probability = probability[i];
   return modes;
+}
+
+ScanWeight Hypotheses::weight_of_scan() const {
+  if (empty()) return {};
+  const double share = std::min(1.0, moved_m_ / kNextDistance_m);
+  return {share * kNext.among, share * kNext.at_all};
+}
+
+// What the scans so far said of a pose.
+LogOdds Hypotheses::past(const Pose2& pose) const {
+  const auto found =
+      std::find_if(hypotheses_.begin(), hypotheses_.end(),
+                   [&](const Hypothesis& hypothesis) { return same_pose(hypothesis.mode, pose); });
+  return found == hypotheses_.end() ? unlisted_ : found->odds;
+}
+
+void Hypotheses::keep_distinct(const std::vector<Hypothesis>& sorted) {
+  hypotheses_.clear();
+  for (const Hypothesis& candidate : sorted) {
+    const bool known = std::any_of(
+        hypotheses_.begin(), hypotheses_.end(),
+        [&](const Hypothesis& kept) { return same_pose(kept.mode, candidate.mode.T_map_base); });
+    const bool hopeless = candidate.odds.among < sorted.front().odds.among - kHopeless;
+    if (!known && !hopeless && hypotheses_.size() < kMostHypotheses)
+      hypotheses_.push_back(candidate);
+  }
 }
 
 }  // namespace voxlist::matching

@@ -7,44 +7,47 @@
 
 namespace voxlist::matching {
 
-/// The best even support that another place than the candidate's has, or, if it is no candidate,
+/// The best even support that another pose than the candidate's has, or, if it is no candidate,
 /// may have: the share `unseen` of the candidate's.
 double rival_support(const PoseMode& candidate, const std::vector<PoseMode>& all, double unseen);
 
-/// Where the robot may be, as long as one scan alone cannot tell: each place keeps what the scans
-/// so far said for it. Places move with the robot; "none of them" is always one more possibility.
+/// Hypotheses of where the robot is, as long as one scan alone cannot tell: each keeps what the
+/// scans so far said for it, and moves with the robot. "None of them" is always one more
+/// possibility.
 class Hypotheses {
  public:
-  bool empty() const { return places_.empty(); }
+  bool empty() const { return hypotheses_.empty(); }
   void clear();
 
   /// The robot has moved since the last scan (motion in base). Scans that are taken close together
   /// see nearly the same, and so count less.
   void move(const Pose2& motion);
 
-  /// Where the places are now; covariances are the last scan's.
-  std::vector<PoseMode> places() const;
+  /// Where the hypotheses are now; covariances are the last scan's.
+  std::vector<PoseMode> poses() const;
 
-  /// Takes what a scan says (the support) of each candidate: places of before, found again about
-  /// where they had moved to, and new ones. Places that no candidate is near are given up.
-  /// `unseen`: a place that is no candidate may have this share of a candidate's support.
-  void weigh(const std::vector<PoseMode>& candidates, double unseen);
+  /// Takes what a scan says (the support) of each candidate: hypotheses of before, found again
+  /// about where they had moved to, and new ones. Hypotheses that no candidate is near are given
+  /// up. `unseen`: a pose that is no candidate may have this share of a candidate's support.
+  void update(const std::vector<PoseMode>& candidates, double unseen);
 
-  /// Candidates with their probabilities, the most probable first; what is missing to 1 is for none
+  /// Hypotheses with their probabilities, the most probable first; what is missing to 1 is for none
   /// of them.
   std::vector<PoseMode> modes() const;
 
  private:
-  struct Place {
+  struct Hypothesis {
     PoseMode mode;
-    Odds odds;
+    LogOdds odds;
   };
 
-  Odds past(const Pose2& pose) const;
+  ScanWeight weight_of_scan() const;
+  LogOdds past(const Pose2& pose) const;
+  void keep_distinct(const std::vector<Hypothesis>& sorted);
 
-  std::vector<Place> places_;
-  /// Of a place that no scan so far has listed.
-  Odds unlisted_;
+  std::vector<Hypothesis> hypotheses_;
+  // What scans said of a pose that none so far has listed.
+  LogOdds unlisted_;
   double moved_m_ = 0.0;
 };
 

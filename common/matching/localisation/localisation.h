@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "voxlist/geometry/pose.h"
+#include "voxlist/matching/localisation/confidence.h"
 
 namespace voxlist::matching {
 
@@ -27,12 +28,9 @@ struct PoseMode {
   /// Of (x, y, yaw): m^2, m rad, rad^2.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   /// Matched points whose cell is occupied in the tolerant map, as a share, 0..1.
-  double overlap = 0.0;
-  /// How well map and scan agree there, at most 1 (see support() in match_modes.h): by rays close
-  /// together, and by few that are spread evenly over the surfaces that the scan sees. 0 while
-  /// tracking.
-  double support = 0.0;
-  double even_support = 0.0;
+  double overlap_ratio = 0.0;
+  /// How well map and scan agree there. 0 while tracking.
+  PoseSupport support;
   /// That this mode is right, 0..1; all modes' together are less than 1: none of them may be.
   double probability = 0.0;
 };
@@ -46,8 +44,8 @@ struct Localisation {
   /// log10 of the probability of the overlap by chance (paper, section IV), over all poses of the
   /// lattice.
   double significance_log10 = 0.0;
-  /// Places that are not listed may have this share of the first mode's support; 1: who knows.
-  /// After a search of the whole map.
+  /// Poses that are not listed may have this share of the first mode's support; 1: nobody knows.
+  /// Told by a search of the whole map.
   double unseen = 1.0;
   /// Probability that the first mode is right, 0..1.
   double confidence = 0.0;

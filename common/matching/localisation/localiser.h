@@ -2,17 +2,15 @@
 
 #include <memory>
 #include <optional>
-#include <vector>
 
 #include "voxlist/geometry/cloud.h"
 #include "voxlist/matching/engines/matcher.h"
 #include "voxlist/matching/localisation/localisation.h"
+#include "voxlist/matching/localisation/thread_arena.h"
 #include "voxlist/voxels/occupancy_map.h"
 
 namespace voxlist::matching {
 
-class EvidenceMap;
-struct EvidenceRay;
 class LostSearch;
 class PoseTrack;
 struct MotionLimits;
@@ -22,12 +20,16 @@ struct LocaliserConfig {
   /// Without odometry: the fastest that the robot moves and turns.
   double max_speed_mps = 2.0;
   double max_turn_rate_dps = 120.0;
+  /// Threads that matching uses; 0: one for each core. Changes speed: no result depends on it.
+  int threads = 0;
 
   template <class Visitor>
   void visit(Visitor& v) {
     v("max_speed_mps", max_speed_mps, "fastest motion to expect without odometry", 0.01, 50.0);
     v("max_turn_rate_dps", max_turn_rate_dps, "fastest turn to expect without odometry", 1.0,
       720.0);
+    v("threads", threads,
+      "threads that matching uses, 0: one for each core; no result depends on it", 0, 1024);
     matcher.visit(v);
   }
 };
@@ -63,19 +65,18 @@ class Localiser {
   // Drops what was made of the map when that has changed since.
   void follow_map();
   Matcher& matcher();
-  const EvidenceMap& evidence();
-  static Localisation origin(const Cloud& cloud);
+  Localisation localise(const PreparedScan& scan, const std::optional<Pose2>& T_odom_base);
   // Nothing when the track is lost.
-  std::optional<Localisation> track(const Cloud& cloud, const std::optional<Pose2>& T_odom_base);
-
-  bool fits_better_elsewhere(const Cloud& cloud, const std::vector<EvidenceRay>& rays,
-                             const Pose2& pose, double worth);
+  std::optional<Localisation> track(const PreparedScan& scan,
+                                    const std::optional<Pose2>& T_odom_base);
+  Localisation search(const PreparedScan& scan, const std::optional<Pose2>& T_odom_base);
+  bool fits_better_elsewhere(const PreparedScan& scan, const Pose2& pose, double worth);
 
   const OccupancyMap& map_;
   const LocaliserConfig config_;
-  MapRevision revision_;  // of the map that matcher_ and evidence_ were made of
+  MapRevision revision_;  // of the map that matcher_ was made of
+  ThreadArena threads_;
   std::unique_ptr<Matcher> matcher_;
-  std::unique_ptr<EvidenceMap> evidence_;
   std::unique_ptr<PoseTrack> track_;
   std::unique_ptr<LostSearch> search_;
 };

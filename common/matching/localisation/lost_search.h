@@ -6,7 +6,6 @@
 #include "voxlist/matching/engines/matcher.h"
 #include "voxlist/matching/localisation/hypotheses.h"
 #include "voxlist/matching/localisation/localisation.h"
-#include "voxlist/matching/surfaces/evidence.h"
 
 namespace voxlist::matching {
 
@@ -17,8 +16,8 @@ struct MotionLimits {
 };
 
 /// Finds a robot that does not know where it is: searches the whole map for each scan, and follows
-/// what it found over the motion between them, by odometry or from scan to scan, until one place is
-/// sure.
+/// the hypotheses over the motion between scans, by odometry or from scan to scan, until one of
+/// them is sure.
 class LostSearch {
  public:
   LostSearch(const MatcherConfig& config, const MotionLimits& limits)
@@ -26,11 +25,14 @@ class LostSearch {
 
   /// Modes come with their probabilities, the most probable first. TRACKING: the first is sure.
   /// AMBIGUOUS: one of the modes is probably right. LOST: probably none.
-  Localisation add(const Cloud& cloud, const std::optional<Pose2>& T_odom_base, Matcher& matcher,
-                   const EvidenceMap& evidence);
+  Localisation add(const PreparedScan& scan, const std::optional<Pose2>& T_odom_base,
+                   Matcher& matcher);
 
  private:
-  std::optional<Pose2> motion_to(const Cloud& cloud, const std::optional<Pose2>& T_odom_base) const;
+  void follow(const PreparedScan& scan, const std::optional<Pose2>& T_odom_base);
+  std::optional<Pose2> motion_to(const PreparedScan& scan,
+                                 const std::optional<Pose2>& T_odom_base) const;
+  void find_again(const PreparedScan& scan, Matcher& matcher, std::vector<PoseMode>& modes) const;
 
   const MatcherConfig config_;
   const MotionLimits limits_;
@@ -40,6 +42,6 @@ class LostSearch {
 };
 
 /// The modes that an engine found, as yet without a state.
-Localisation from_match(const Cloud& cloud, const Match& match);
+Localisation from_match(const PreparedScan& scan, const Match& match);
 
 }  // namespace voxlist::matching

@@ -4,15 +4,15 @@
 #include <cmath>
 
 #include "voxlist/geometry/elementary.h"
-#include "voxlist/matching/engines/match_modes.h"
 
 namespace voxlist::matching {
 namespace {
 
-// Lost below this overlap, or below this share of the last fit.
-constexpr double kLeastOverlap = 0.15, kLeastFitShare = 0.4;
-// The window grows to all that motion allows when the fit falls below this share of the last one.
-constexpr double kDoubtfulFitShare = 0.8;
+// Lost below this overlap ratio, or below this share of the last inlier ratio.
+constexpr double kLeastOverlapRatio = 0.15, kLeastShare = 0.4;
+// The window grows to all that motion allows when the inlier ratio falls below this share of the
+// last one.
+constexpr double kDoubtfulShare = 0.8;
 // Support that falls so far below its running mean makes a pose doubtful, or lost.
 constexpr double kDoubtfulDrop = 0.06, kLostDrop = 0.35;
 constexpr double kSupportMemory = 0.7;
@@ -22,6 +22,8 @@ constexpr double kKnownShare = 0.3;
 // How far a prediction may be off, beside a share of the motion itself.
 constexpr double kWindow_m = 0.4, kWindow_rad = 0.3;
 constexpr double kWindowShare = 0.2;
+// Steps in time count as at least and at most this long (s).
+constexpr double kShortestStep_s = 0.1, kLongestStep_s = 3.0;
 
 // A heavy-tailed prior on the distance from the prediction: decides between poses that fit alike.
 // Odometry is worth more than a guess from the last step, the less the farther the robot went.
@@ -33,7 +35,17 @@ constexpr double kOdometryShare = 0.1;
 // The most that it takes to believe an unlikely motion: wheels slip.
 constexpr double kMostSurprise = 0.1;
 
-double best_fit(const Match& match) { return match.modes.empty() ? 0.0 : match.modes.front().fit; }
+double best_inlier_ratio(const Match& match) {
+  return match.modes.empty() ? 0.0 : match.modes.front().inlier_ratio;
+}
+
+// Adds what a wider window gave.
+void add(const Match& wide, Match& match) {
+  match.modes.insert(match.modes.end(), wide.modes.begin(), wide.modes.end());
+  match.certified = match.certified && wide.certified;
+  match.complete = match.complete && wide.complete;
+  match.poses_examined += wide.poses_examined;
+}
 
 bool map_knows(const Evidence& e) { return e.hits + e.misses >= kKnownShare * e.points; }
 
@@ -62,25 +74,14 @@ double PoseTrack::surprise(const Pose2& pose, const Pose2& predicted, bool odome
   return prior.weight * elementary::log1p(d * d + turn * turn);
 }
 
-Match PoseTrack::match(Matcher& matcher, const Cloud& cloud,
+Match PoseTrack::match(Matcher& matcher, const PreparedScan& scan,
                        const std::optional<Pose2>& T_odom_base, const MotionLimits& limits) const {
-  const Pose2 predicted = predict(cloud.utime_us, T_odom_base);
-  const double half_m = kWindow_m + kWindowShare * distance_m(predicted, pose_);
-  const double half_rad = kWindow_rad + kWindowShare * turn_rad(predicted, pose_);
-  Match match = matcher.match(cloud, PoseWindow{predicted, half_m, half_m, half_rad});
-  if (fit_ == 0.0 || best_fit(match) < kDoubtfulFitShare * fit_) {
-    const double dt_s =
-        std::clamp(static_cast<double>(cloud.utime_us - utime_us_) * 1e-6, 0.1, 3.0);
-    const double reach_m = half_m + limits.speed_mps * dt_s;
-    const double reach_rad = kWindow_rad + limits.turn_rate_radps * dt_s;
-    const Match wide = matcher.match(cloud, PoseWindow{predicted, reach_m, reach_m, reach_rad});
-    match.modes.insert(match.modes.end(), wide.modes.begin(), wide.modes.end());
-    match.certified = match.certified && wide.certified;
-    match.complete = match.complete && wide.complete;
-    match.poses_examined += wide.poses_examined;
-  }
+  const Pose2 predicted = predict(scan.cloud().utime_us, T_odom_base);
+  Match match = matcher.match(scan, window(predicted));
+  if (inlier_ratio_ == 0.0 || best_inlier_ratio(match) < kDoubtfulShare * inlier_ratio_)
+    add(matcher.match(scan, widest_window(predicted, scan.cloud().utime_us, limits)), match);
   const auto score = [&](const MatchMode& mode) {
-    return mode.fit - surprise(mode.pose, predicted, T_odom_base.has_value());
+    return mode.inlier_ratio - surprise(mode.pose, predicted, T_odom_base.has_value());
   };
   const auto best =
       std::max_element(match.modes.begin(), match.modes.end(),
@@ -89,15 +90,30 @@ Match PoseTrack::match(Matcher& matcher, const Cloud& cloud,
   return match;
 }
 
+// Where a prediction that is about right leaves the robot.
+PoseWindow PoseTrack::window(const Pose2& predicted) const {
+  const double half_m = kWindow_m + kWindowShare * distance_m(predicted, pose_);
+  return {predicted, half_m, half_m, kWindow_rad + kWindowShare * turn_rad(predicted, pose_)};
+}
+
+// All that the robot can have moved.
+PoseWindow PoseTrack::widest_window(const Pose2& predicted, std::int64_t now_us,
+                                    const MotionLimits& limits) const {
+  const double dt_s =
+      std::clamp(static_cast<double>(now_us - utime_us_) * 1e-6, kShortestStep_s, kLongestStep_s);
+  const double half_m = window(predicted).half_x_m + limits.speed_mps * dt_s;
+  return {predicted, half_m, half_m, kWindow_rad + limits.turn_rate_radps * dt_s};
+}
+
 PoseTrack::Judgement PoseTrack::judge(const Cloud& cloud, const std::optional<Pose2>& T_odom_base,
                                       const MatchMode& mode, const Evidence& evidence) const {
-  const double supported = support(evidence);
+  const double supported = support_of(evidence);
   // Only what wheels measured speaks against a motion, not that the last step was another.
   const double unlikely = T_odom_base_ && T_odom_base
                               ? surprise(mode.pose, predict(cloud.utime_us, T_odom_base), true)
                               : 0.0;
   const double worth = supported - std::min(unlikely, kMostSurprise);
-  if (mode.overlap < kLeastOverlap || mode.fit < kLeastFitShare * fit_)
+  if (mode.overlap_ratio < kLeastOverlapRatio || mode.inlier_ratio < kLeastShare * inlier_ratio_)
     return {Verdict::kLost, worth};
   if (!support_ || !map_knows(evidence)) return {Verdict::kExplains, worth};
   if (*support_ - supported > kLostDrop) return {Verdict::kLost, worth};
@@ -112,9 +128,9 @@ void PoseTrack::advance(const Cloud& cloud, const std::optional<Pose2>& T_odom_b
   utime_us_ = cloud.utime_us;
   pose_ = mode.pose;
   T_odom_base_ = T_odom_base;
-  fit_ = mode.fit;
+  inlier_ratio_ = mode.inlier_ratio;
   if (!map_knows(evidence)) return;
-  const double now = support(evidence);
+  const double now = support_of(evidence);
   support_ = support_ ? kSupportMemory * *support_ + (1.0 - kSupportMemory) * now : now;
 }
 

@@ -21,9 +21,9 @@ class PoseTrack {
   Pose2 predict(std::int64_t now_us, const std::optional<Pose2>& T_odom_now) const;
 
   /// Matches a cloud round the prediction, in all that motion allows when that is doubtful. Which
-  /// mode is taken weighs its fit against how far the prediction is off; it comes first. Modes may
-  /// be empty.
-  Match match(Matcher& matcher, const Cloud& cloud, const std::optional<Pose2>& T_odom_base,
+  /// mode is taken weighs its inlier ratio against how far the prediction is off; it comes first.
+  /// Modes may be empty.
+  Match match(Matcher& matcher, const PreparedScan& scan, const std::optional<Pose2>& T_odom_base,
               const MotionLimits& limits) const;
 
   /// How well a pose explains its scan: beside the scans before, and the motion since. What the map
@@ -42,6 +42,9 @@ class PoseTrack {
                const Evidence& evidence);
 
  private:
+  PoseWindow window(const Pose2& predicted) const;
+  PoseWindow widest_window(const Pose2& predicted, std::int64_t now_us,
+                           const MotionLimits& limits) const;
   double surprise(const Pose2& pose, const Pose2& predicted, bool odometry_now) const;
 
   std::int64_t utime_us_;
@@ -50,9 +53,9 @@ class PoseTrack {
   // Motion of the last step in base, and how long it took.
   Pose2 step_;
   double step_s_ = 0.0;
-  // Of the last cloud; 0: there was nothing to compare with yet.
-  double fit_ = 0.0;
-  // Of the last clouds, a running mean; nothing before one was seen where the map knows much.
+  // The last cloud's; 0: there was nothing to compare with yet.
+  double inlier_ratio_ = 0.0;
+  // A running mean over the last clouds; nothing before one was seen where the map knows much.
   std::optional<double> support_;
 };
 

@@ -212,21 +212,6 @@ bool within_reach(const CoarseMap& map, const Eigen::Vector3f& p) {
          p.head<2>().cast<double>().squaredNorm() <= map.reach_m() * map.reach_m();
 }
 
-// One point of each cube: walls count by their area. Whoever stands before the scanner fills half
-// of its points, and a few cubes.
-std::vector<Eigen::Vector3f> spread(const std::vector<Eigen::Vector3f>& points) {
-  constexpr std::size_t kEnough = 300;
-  for (double cube_m = 0.4; cube_m > kFinestResolution_m && points.size() > kEnough;
-       cube_m /= 2.0) {
-    VoxelMap cubes(cube_m);
-    std::vector<Eigen::Vector3f> first;
-    std::copy_if(points.begin(), points.end(), std::back_inserter(first),
-                 [&](const auto& p) { return cubes.insert(voxel_at(p, cube_m)); });
-    if (first.size() >= kEnough) return first;
-  }
-  return points;
-}
-
 // The numbers below n in an order of which any first part is spread evenly, so that hopeless poses
 // are given up early: by their fractions of the golden ratio.
 std::vector<std::size_t> golden_order(std::size_t n) {
@@ -254,22 +239,28 @@ GlobalMap::GlobalMap(const VoxelMap& map, double finest_m, double reach_m)
           reach_m),
       coarse_(tolerant_, reach_m) {}
 
-std::vector<Eigen::Vector3f> GlobalMap::choose_points(std::span<const Eigen::Vector3f> scan,
+std::vector<Eigen::Vector3f> GlobalMap::choose_points(const PreparedScan& scan,
                                                       std::size_t most) const {
+  const auto points = scan.search_points(telling(scan));
+  std::vector<Eigen::Vector3f> chosen;
+  const std::size_t n = std::min({most, kMostSearchPoints, points.size()});
+  for (const std::size_t i : golden_order(n)) chosen.push_back(points[i * points.size() / n]);
+  return chosen;
+}
+
+// Indices of the points within reach that do not lie in layers which the map fills. They are left
+// out before the scan is thinned: the cubes at the foot of a wall would else be the floor's.
+std::vector<std::uint32_t> GlobalMap::telling(const PreparedScan& scan) const {
   constexpr double kFull = 0.5;         // of the ground plan
   constexpr double kFewestKept = 0.05;  // of the points; fewer tell nothing, so that all are kept
-  std::vector<Eigen::Vector3f> near, telling;
-  for (const auto& p : scan) {
+  std::vector<std::uint32_t> near, telling;
+  for (const std::uint32_t i : scan.in_range()) {
+    const Eigen::Vector3f& p = scan.cloud().points[i];
     if (!within_reach(coarse_, p)) continue;
-    near.push_back(p);
-    if (tolerant_.fill(tolerant_.layer(double(p.z()))) < kFull) telling.push_back(p);
+    near.push_back(i);
+    if (tolerant_.fill(tolerant_.layer(double(p.z()))) < kFull) telling.push_back(i);
   }
-  if (double(telling.size()) < kFewestKept * double(near.size())) telling = std::move(near);
-  telling = spread(telling);
-  std::vector<Eigen::Vector3f> chosen;
-  const std::size_t n = std::min({most, kMostSearchPoints, telling.size()});
-  for (const std::size_t i : golden_order(n)) chosen.push_back(telling[i * telling.size() / n]);
-  return chosen;
+  return double(telling.size()) < kFewestKept * double(near.size()) ? near : telling;
 }
 
 SearchResult global_search(const GlobalMap& map, std::span<const Eigen::Vector3f> points,

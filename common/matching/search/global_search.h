@@ -6,6 +6,7 @@
 
 #include "voxlist/matching/counting/coarse_sweep.h"
 #include "voxlist/matching/counting/tolerant_map.h"
+#include "voxlist/matching/scan/prepared_scan.h"
 #include "voxlist/matching/search/search_result.h"
 
 namespace voxlist::matching {
@@ -25,13 +26,14 @@ class GlobalMap {
   const CoarseMap& coarse() const { return coarse_; }
 
   /// The points of a scan (base, m) that tell poses apart: within reach, and not in layers that the
-  /// map fills (floor, ceiling) unless nothing else is there. One of each cube of 0.4 m, or smaller
-  /// ones if those are few: surfaces count by their area, however many points lie on the near ones.
-  /// At most `most` and kMostSearchPoints, spread evenly, and so is any first part of them.
-  std::vector<Eigen::Vector3f> choose_points(std::span<const Eigen::Vector3f> scan,
-                                             std::size_t most) const;
+  /// map fills (floor, ceiling) unless nothing else is there; thinned as in
+  /// PreparedScan::search_points(). At most `most` and kMostSearchPoints, spread evenly, and so is
+  /// any first part of them.
+  std::vector<Eigen::Vector3f> choose_points(const PreparedScan& scan, std::size_t most) const;
 
  private:
+  std::vector<std::uint32_t> telling(const PreparedScan& scan) const;
+
   TolerantMap tolerant_;
   CoarseMap coarse_;
 };

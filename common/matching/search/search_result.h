@@ -7,6 +7,11 @@
 
 namespace voxlist::matching {
 
+/// Most nodes that a search expands, unless it is told otherwise: about 0.5 s of one thread. In a
+/// changed floor of 200 x 150 m, 65 % of searches end there, on floors of 60 x 40 m nearly none.
+/// Fewer: faster in foreign buildings, and more searches without a certificate.
+inline constexpr int kMostNodes = 100'000;
+
 /// What is asked of a search for the poses of a lattice that overlap a map most.
 struct SearchConfig {
   /// Modes reported beside the best one overlap at least this share of the best overlap.
@@ -17,7 +22,7 @@ struct SearchConfig {
   double mode_distance_m = 0.5;
   double mode_turn_rad = 0.2;
   /// Most nodes expanded; then the search stops early and says so.
-  std::int64_t max_nodes = 200'000;
+  std::int64_t max_nodes = kMostNodes;
 };
 
 /// A local best of the overlap.
@@ -27,10 +32,8 @@ struct OverlapMode {
   int overlap = 0;
 };
 
-/// What a search found.
-struct SearchResult {
-  /// Best first; empty when the scan or the map is empty.
-  std::vector<OverlapMode> modes;
+/// How far a search went.
+struct SearchReport {
   /// No pose of the lattice overlaps more than the first mode. False: the node budget ended the
   /// search.
   bool certified = false;
@@ -43,6 +46,12 @@ struct SearchResult {
   double lattice_poses = 0.0;
   /// Nodes and poses whose overlap was counted.
   std::int64_t poses_examined = 0;
+};
+
+/// What a search found.
+struct SearchResult : SearchReport {
+  /// Best first; empty when the scan or the map is empty.
+  std::vector<OverlapMode> modes;
 };
 
 }  // namespace voxlist::matching

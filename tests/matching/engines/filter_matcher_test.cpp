@@ -40,14 +40,15 @@ TEST(FilterMatcher, FindsTheBestPoseOfItsWindowAndRefinesIt) {
   const OccupancyMap map = two_rooms();
   const auto matcher = make_filter_matcher(map, {});
   const PoseWindow window{kTwin * Pose2{0.15, -0.1, 0.05}, 0.3, 0.3, 0.15};
-  const Match match = matcher->match(scan(), window);
+  const Cloud cloud = scan();
+  const Match match = matcher->match(PreparedScan(cloud), window);
   ASSERT_FALSE(match.modes.empty());
   const MatchMode& best = match.modes.front();
   EXPECT_TRUE(is_at(best, kTwin));
   EXPECT_NE(best.pose, best.start);
-  EXPECT_GT(best.fit, 0.5);
+  EXPECT_GT(best.inlier_ratio, 0.5);
   EXPECT_GT(best.support, 0.8);
-  EXPECT_GT(best.overlap, 0.5);
+  EXPECT_GT(best.overlap_ratio, 0.5);
   EXPECT_TRUE(match.complete);
   EXPECT_GT(match.poses_examined, 100);
 }
@@ -57,7 +58,8 @@ TEST(FilterMatcher, ListsBothOfTwoPlacesThatAreAlike) {
   const auto matcher = make_filter_matcher(map, {});
   const PoseWindow both{
       {kTruth.x_m + kApart_m / 2, kTruth.y_m, kTruth.yaw_rad}, kApart_m / 2 + 0.2, 0.2, 0.15};
-  const Match match = matcher->match(scan(), both);
+  const Cloud cloud = scan();
+  const Match match = matcher->match(PreparedScan(cloud), both);
   ASSERT_GE(match.modes.size(), 2U);
   EXPECT_LE(match.modes.size(), 8U);
   for (const Pose2& place : {kTruth, kTwin})
@@ -72,9 +74,10 @@ TEST(FilterMatcher, ListsBothOfTwoPlacesThatAreAlike) {
 // What either engine leaves unlisted is the same share: the default has one home.
 TEST(FilterMatcher, LeavesNoMoreUnseenThanTheSearch) {
   const OccupancyMap map = two_rooms();
-  const Match search = make_matcher(map, {})->match(scan(), std::nullopt);
+  const Cloud cloud = scan();
+  const Match search = make_matcher(map, {})->match(PreparedScan(cloud), std::nullopt);
   const Match filter =
-      make_filter_matcher(map, {})->match(scan(), PoseWindow{kTruth, 0.2, 0.2, 0.1});
+      make_filter_matcher(map, {})->match(PreparedScan(cloud), PoseWindow{kTruth, 0.2, 0.2, 0.1});
   ASSERT_TRUE(search.complete && filter.complete);
   EXPECT_LT(search.unseen, 1.0);
   EXPECT_EQ(filter.unseen, search.unseen);
@@ -84,7 +87,8 @@ TEST(FilterMatcher, FindsNothingOfAHandfulOfPoints) {
   const OccupancyMap map = two_rooms();
   Cloud few = scan();
   few.points.resize(20);
-  const Match match = make_filter_matcher(map, {})->match(few, PoseWindow{kTruth, 0.2, 0.2, 0.1});
+  const Match match =
+      make_filter_matcher(map, {})->match(PreparedScan(few), PoseWindow{kTruth, 0.2, 0.2, 0.1});
   EXPECT_TRUE(match.modes.empty());
   EXPECT_FALSE(match.complete);
   EXPECT_EQ(match.unseen, 1.0);

@@ -97,8 +97,8 @@ void expect_equal(const Match& a, const Match& b) {
   for (std::size_t i = 0; i < a.modes.size(); ++i) {
     EXPECT_EQ(a.modes[i].pose, b.modes[i].pose);
     EXPECT_EQ(a.modes[i].covariance, b.modes[i].covariance);
-    EXPECT_EQ(a.modes[i].fit, b.modes[i].fit);
-    EXPECT_EQ(a.modes[i].overlap, b.modes[i].overlap);
+    EXPECT_EQ(a.modes[i].inlier_ratio, b.modes[i].inlier_ratio);
+    EXPECT_EQ(a.modes[i].overlap_ratio, b.modes[i].overlap_ratio);
     EXPECT_EQ(a.modes[i].evidence, b.modes[i].evidence);
   }
   EXPECT_EQ(a.significance_log10, b.significance_log10);
@@ -122,12 +122,13 @@ TEST(Matcher, MatchesInAGrownMapAsInANewOne) {
   const auto grown = make_matcher(map, {});
   for (int i = 1; i < 6; ++i) {
     const Pose2 pose = on_the_way(i);
-    const Cloud scan = seen_from(pose);
+    const Cloud cloud = seen_from(pose);
+    const PreparedScan scan(cloud);
     const auto fresh = make_matcher(map, {});
     const PoseWindow window{pose * Pose2{0.1, -0.1, 0.05}, 0.4, 0.4, 0.3};
     expect_equal(grown->match(scan, window), fresh->match(scan, window));
     expect_equal(grown->match(scan, std::nullopt), fresh->match(scan, std::nullopt));
-    grown->map_grew(add_scan(scan, to_pose3(pose), i % 2 == 0 ? 100.0 : 2.0, map));
+    grown->map_grew(add_scan(cloud, to_pose3(pose), i % 2 == 0 ? 100.0 : 2.0, map));
   }
 }
 
@@ -135,13 +136,14 @@ TEST(Matcher, TheFilterToo) {
   OccupancyMap map;
   add_scan(seen_from(on_the_way(0)), to_pose3(on_the_way(0)), 100.0, map);
   MatcherConfig config;
-  config.engine = "particle_filter";
+  config.engine = Engine::kParticleFilter;
   const auto grown = make_matcher(map, config);
   for (int i = 1; i < 3; ++i) {
-    const Cloud scan = seen_from(on_the_way(i));
+    const Cloud cloud = seen_from(on_the_way(i));
+    const PreparedScan scan(cloud);
     const PoseWindow window{on_the_way(i), 0.2, 0.2, 0.1};
     expect_equal(grown->match(scan, window), make_matcher(map, config)->match(scan, window));
-    grown->map_grew(add_scan(scan, to_pose3(on_the_way(i)), 100.0, map));
+    grown->map_grew(add_scan(cloud, to_pose3(on_the_way(i)), 100.0, map));
   }
 }
 
@@ -151,7 +153,8 @@ TEST(EvidenceMap, WeighsInAGrownMapAsInANewOne) {
   for (int i = 0; i < 5; ++i) {
     const Cloud scan = seen_from(on_the_way(i));
     grown.map_grew(add_scan(scan, to_pose3(on_the_way(i)), 1.0 + i, map));
-    const auto rays = choose_evidence_rays(scan);
+    const PreparedScan prepared(scan);
+    const auto& rays = prepared.few_rays();
     for (const Pose2& off : {Pose2{}, Pose2{0.5, 0.3, 1.0}}) {
       const Pose2 pose = on_the_way(i) * off;
       EXPECT_EQ(grown.at(pose, rays), EvidenceMap(map).at(pose, rays));

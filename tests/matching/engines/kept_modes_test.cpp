@@ -54,7 +54,7 @@ Cloud scan_of_the_first() {
 }
 
 std::vector<MatchMode> modes(const OccupancyMap& map, const Cloud& scan) {
-  return make_matcher(map, {})->match(scan, std::nullopt).modes;
+  return make_matcher(map, {})->match(PreparedScan(scan), std::nullopt).modes;
 }
 
 bool lists(const std::vector<MatchMode>& modes, const Pose2& pose) {

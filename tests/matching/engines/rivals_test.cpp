@@ -42,7 +42,8 @@ TEST(Rivals, AreListedThoughTheyOverlapLess) {
     return std::any_of(match.modes.begin(), match.modes.end(),
                        [&](const MatchMode& mode) { return distance_m(mode.pose, pose) < 0.1; });
   };
-  const Cloud scan = scan_in_first_room(truth);
+  const Cloud cloud = scan_in_first_room(truth);
+  const PreparedScan scan(cloud);
   const Match match = matcher->match(scan, std::nullopt);
   EXPECT_TRUE(lists(match, truth));
   EXPECT_FALSE(lists(match, rival));
@@ -52,7 +53,7 @@ TEST(Rivals, AreListedThoughTheyOverlapLess) {
   EXPECT_EQ(rivals.modes.front().pose, match.modes.front().pose);
   EXPECT_LT(rivals.unseen, match.unseen);
   for (const MatchMode& mode : rivals.modes)
-    EXPECT_GE(mode.overlap, rivals.unseen * rivals.modes.front().overlap);
+    EXPECT_GE(mode.overlap_ratio, rivals.unseen * rivals.modes.front().overlap_ratio);
 }
 
 }  // namespace

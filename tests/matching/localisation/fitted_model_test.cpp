@@ -34,8 +34,7 @@ std::vector<Listed> listed_modes() {
     for (int m = 0; m <= scan % 4; ++m) {
       PoseMode mode;
       mode.T_map_base.x_m = 5.0 * m;
-      mode.support = best - 0.03 * m;
-      mode.even_support = share(0.7, 0.98);
+      mode.support = {best - 0.03 * m, share(0.7, 0.98)};
       listed.modes.push_back(mode);
     }
   }
@@ -48,8 +47,8 @@ void write_csv(const std::string& path, const std::vector<Listed>& scans) {
   file << "kind,seed,query,mode,right,support,even_support,unseen\n";
   for (std::size_t scan = 0; scan < scans.size(); ++scan)
     for (std::size_t m = 0; m < scans[scan].modes.size(); ++m)
-      file << "kind,1," << scan << ',' << m << ",0," << scans[scan].modes[m].support << ','
-           << scans[scan].modes[m].even_support << ',' << scans[scan].unseen << '\n';
+      file << "kind,1," << scan << ',' << m << ",0," << scans[scan].modes[m].support.near << ','
+           << scans[scan].modes[m].support.even << ',' << scans[scan].unseen << '\n';
 }
 
 // What Python prints, number by number.
@@ -70,7 +69,7 @@ TEST(FittedModel, SaysTheSameInCppAsInThePythonThatFitsIt) {
   std::vector<double> expected;
   for (const auto& [modes, unseen] : scans) {
     Hypotheses hypotheses;
-    hypotheses.weigh(modes, unseen);
+    hypotheses.update(modes, unseen);
     for (const PoseMode& mode : hypotheses.modes()) expected.push_back(mode.probability);
   }
   const std::vector<double> said = python_says((folder / "scans.csv").string());

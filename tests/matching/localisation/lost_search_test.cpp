@@ -7,26 +7,31 @@
 namespace voxlist::matching {
 namespace {
 
-// Finds one place, however it is asked, and counts how often it is asked for rivals.
-class OnePlace : public Matcher {
+// Finds one pose, however it is asked, and counts how often it is asked for rivals.
+class OnePose : public Matcher {
  public:
-  OnePlace(const Pose2& pose, double unseen) : unseen_(unseen) { mode_.pose = pose; }
+  OnePose(const OccupancyMap& map, const Pose2& pose, double unseen)
+      : evidence_(map), unseen_(unseen) {
+    mode_.pose = pose;
+  }
 
-  Match match(const Cloud&, const std::optional<PoseWindow>&) override {
+  Match match(const PreparedScan&, const std::optional<PoseWindow>&) override {
     Match match;
     match.modes.push_back(mode_);
     match.unseen = unseen_;
     return match;
   }
-  Match match_rivals(const Cloud& scan) override {
+  Match match_rivals(const PreparedScan& scan) override {
     ++asked;
     return match(scan, std::nullopt);
   }
+  const EvidenceMap& evidence() override { return evidence_; }
   void map_grew(const ChangedBlocks&) override {}
 
   int asked = 0;
 
  private:
+  const EvidenceMap evidence_;
   MatchMode mode_;
   const double unseen_;
 };
@@ -53,28 +58,28 @@ struct Lost {
     });
   }
 
-  Localisation find(OnePlace& matcher) const {
-    return LostSearch({}, {}).add(scan, std::nullopt, matcher, EvidenceMap(map, 0.08));
+  Localisation find(OnePose& matcher) const {
+    return LostSearch({}, {}).add(PreparedScan(scan), std::nullopt, matcher);
   }
 };
 
-TEST(LostSearch, IsSureOfAPlaceThatExplainsAllAndStandsAlone) {
+TEST(LostSearch, IsSureOfAPoseThatExplainsAllAndStandsAlone) {
   const Lost lost(0.0);
-  OnePlace matcher(lost.truth, 0.88);
+  OnePose matcher(lost.map, lost.truth, 0.88);
   EXPECT_TRUE(lost.find(matcher).tracking());
   EXPECT_EQ(matcher.asked, 0);
 }
 
-TEST(LostSearch, AsksForRivalsOfAPlaceThatDoesNotExplainAll) {
+TEST(LostSearch, AsksForRivalsOfAPoseThatDoesNotExplainAll) {
   const Lost lost(0.15);
-  OnePlace matcher(lost.truth, 0.88);
+  OnePose matcher(lost.map, lost.truth, 0.88);
   lost.find(matcher);
   EXPECT_EQ(matcher.asked, 1);
 }
 
 TEST(LostSearch, IsNeverSureAfterASearchThatDidNotEnd) {
   const Lost lost(0.0);
-  OnePlace matcher(lost.truth, 1.0);
+  OnePose matcher(lost.map, lost.truth, 1.0);
   const Localisation found = lost.find(matcher);
   EXPECT_EQ(matcher.asked, 0);
   EXPECT_FALSE(found.tracking());

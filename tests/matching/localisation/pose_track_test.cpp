@@ -16,7 +16,7 @@ Cloud cloud_at(std::int64_t utime_us) {
 MatchMode mode_at(const Pose2& pose) {
   MatchMode mode;
   mode.pose = pose;
-  mode.overlap = mode.fit = 0.9;
+  mode.overlap_ratio = mode.inlier_ratio = 0.9;
   return mode;
 }
 
@@ -127,7 +127,7 @@ TEST(PoseTrack, LearnsNothingWhereTheMapKnowsNothing) {
 
 TEST(PoseTrack, TakesAsLostWhatFitsFarWorseThanTheScanBefore) {
   MatchMode worse = mode_at({});
-  worse.fit = 0.3;
+  worse.inlier_ratio = 0.3;
   const auto judged = [&](const PoseTrack& track) {
     return track.judge(cloud_at(kStep_us), std::nullopt, worse, kAgrees).verdict;
   };

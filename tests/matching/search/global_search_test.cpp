@@ -240,6 +240,13 @@ class ChoosePoints : public testing::Test {
     return points;
   }
 
+  // What a search of the room would count of a scan.
+  std::vector<Eigen::Vector3f> chosen(const std::vector<Eigen::Vector3f>& points,
+                                      std::size_t most) const {
+    const Cloud cloud{0, points, {}};
+    return GlobalMap(voxels_, 0.04, 4.0).choose_points(PreparedScan(cloud), most);
+  }
+
   VoxelMap voxels_;
 };
 
@@ -247,7 +254,7 @@ TEST_F(ChoosePoints, LeavesFloorAndCeilingOut) {
   auto scan = floor_and_ceiling();
   const auto telling = wall(100);
   scan.insert(scan.begin() + 200, telling.begin(), telling.end());
-  const auto points = GlobalMap(voxels_, 0.04, 4.0).choose_points(scan, 1000);
+  const auto points = chosen(scan, 1000);
   EXPECT_EQ(points.size(), 100u);
   for (const auto& p : points) EXPECT_EQ(p.z(), 0.5F);
 }
@@ -255,13 +262,12 @@ TEST_F(ChoosePoints, LeavesFloorAndCeilingOut) {
 TEST_F(ChoosePoints, KeepsFloorAndCeilingWhenNothingElseIsThere) {
   auto scan = floor_and_ceiling();
   scan.push_back(wall(1)[0]);
-  EXPECT_EQ(GlobalMap(voxels_, 0.04, 4.0).choose_points(scan, 1000).size(), scan.size());
+  EXPECT_EQ(chosen(scan, 1000).size(), scan.size());
 }
 
 TEST_F(ChoosePoints, KeepsEachOfFewPointsOnce) {
-  const GlobalMap map(voxels_, 0.04, 4.0);
   for (const std::size_t n : {1u, 2u, 50u, 300u}) {
-    auto points = map.choose_points(wall(n), n);
+    auto points = chosen(wall(n), n);
     std::sort(points.begin(), points.end(),
               [](const auto& a, const auto& b) { return a.y() < b.y(); });
     EXPECT_EQ(points, wall(n));
@@ -274,7 +280,7 @@ TEST_F(ChoosePoints, WhoStandsNearIsNotCountedByTheirPoints) {
     for (int z = 5; z < 45; ++z)
       scan.emplace_back(2.0F, -2.0F + 0.02F * float(y), 0.02F * float(z));
   for (int i = 0; i < 5000; ++i) scan.emplace_back(0.3F, 0.2F + 0.00004F * float(i), 0.5F);
-  const auto points = GlobalMap(voxels_, 0.04, 4.0).choose_points(scan, 1000);
+  const auto points = chosen(scan, 1000);
   const auto near =
       std::count_if(points.begin(), points.end(), [](const auto& p) { return p.x() < 1.0F; });
   EXPECT_GE(points.size(), 300u);
@@ -282,7 +288,7 @@ TEST_F(ChoosePoints, WhoStandsNearIsNotCountedByTheirPoints) {
 }
 
 TEST_F(ChoosePoints, SpreadsAnyFirstPartOfThemEvenly) {
-  const auto points = GlobalMap(voxels_, 0.04, 4.0).choose_points(wall(7000), 1000);
+  const auto points = chosen(wall(7000), 1000);
   ASSERT_EQ(points.size(), 1000u);
   for (const std::size_t part : {10u, 100u, 300u, 1000u}) {
     std::vector<float> y;
@@ -304,9 +310,8 @@ TEST_F(ChoosePoints, DropsWhatNoSearchCanUse) {
       scan.back()[axis] = odd;
     }
   scan.emplace_back(4.1F, 0.0F, 0.5F);
-  EXPECT_EQ(GlobalMap(voxels_, 0.04, 4.0).choose_points(scan, 1000).size(), 100u);
-  EXPECT_EQ(GlobalMap(voxels_, 0.04, 4.0).choose_points(wall(20'000), 20'000).size(),
-            kMostSearchPoints);
+  EXPECT_EQ(chosen(scan, 1000).size(), 100u);
+  EXPECT_EQ(chosen(wall(20'000), 20'000).size(), kMostSearchPoints);
 }
 
 }  // namespace

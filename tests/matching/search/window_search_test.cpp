@@ -12,6 +12,11 @@
 namespace voxlist::matching {
 namespace {
 
+MatchPoints telling_points(const std::vector<Eigen::Vector3f>& points) {
+  const Cloud cloud{0, points, {}};
+  return PreparedScan(cloud).points();
+}
+
 constexpr double kCell_m = 0.08;
 
 // Whether a column of 0.08 m, a block high, holds a voxel or has a neighbour that does.
@@ -54,7 +59,7 @@ SearchResult search_in(const VoxelMap& map, const MatchPoints& scan, const PoseW
 TEST(WindowSearch, BestOverlapEqualsBruteForceOverTheWindow) {
   for (unsigned seed = 1; seed <= 3; ++seed) {
     const auto room = synthetic_room(6.0, 5.0, {2.5, 2.0, 0.7}, 1500, seed);
-    const MatchPoints scan = some_of(choose_match_points(room.scan, {}), 150);
+    const MatchPoints scan = some_of(telling_points(room.scan), 150);
     const PoseWindow window{{2.6, 1.9, 0.75}, 0.2, 0.3, 0.1};
     const SearchResult found = search_in(room.map, scan, window);
     ASSERT_FALSE(found.modes.empty()) << "seed " << seed;
@@ -93,7 +98,7 @@ TEST(WindowSearch, GivesTheSameWithAnyInstructions) {
   const auto room = synthetic_room(6.0, 5.0, {2.5, 2.0, 0.7}, 3000, 8);
   // Numbers of points and tiles that do not fill the widest words.
   for (const std::size_t points : {1, 7, 8, 150, 403}) {
-    const MatchPoints scan = some_of(choose_match_points(room.scan, {}), points);
+    const MatchPoints scan = some_of(telling_points(room.scan), points);
     for (const double half_m : {0.1, 0.4, 0.8, 1.7}) {
       const PoseWindow window{{2.4, 2.1, 0.5}, half_m, 0.7 * half_m, 0.4};
       const auto run = [&](Instructions instructions) {
@@ -108,7 +113,7 @@ TEST(WindowSearch, GivesTheSameWithAnyInstructions) {
 
 TEST(WindowSearch, GivesTheSameForAnyNumberOfThreads) {
   const auto room = synthetic_room(6.0, 5.0, {2.5, 2.0, 0.7}, 3000, 4);
-  const MatchPoints scan = some_of(choose_match_points(room.scan, {}), 1000);
+  const MatchPoints scan = some_of(telling_points(room.scan), 1000);
   const PoseWindow window{{2.0, 2.0, 0.0}, 1.2, 1.2, 3.2};
   const SearchConfig config{.mode_ratio = 0.6};
   const auto run = [&](std::size_t threads) {
@@ -120,7 +125,7 @@ TEST(WindowSearch, GivesTheSameForAnyNumberOfThreads) {
 
 TEST(WindowSearch, FindsNothingInAnEmptyMapOrForAnEmptyScan) {
   const auto room = synthetic_room(6.0, 5.0, {2.5, 2.0, 0.7}, 1500, 5);
-  const MatchPoints scan = choose_match_points(room.scan, {});
+  const MatchPoints scan = telling_points(room.scan);
   const PoseWindow window{{2.5, 2.0, 0.7}, 0.2, 0.2, 0.1};
   EXPECT_TRUE(search_in(VoxelMap(), scan, window).modes.empty());
   EXPECT_TRUE(search_in(room.map, {}, window).modes.empty());
@@ -130,8 +135,9 @@ TEST(WindowMatcher, FindsAPoseThatIsOffByAMetreAndARightAngle) {
   const auto room = synthetic_room(6.0, 5.0, {2.5, 2.0, 0.7}, 5000, 6);
   const OccupancyMap map{room.map, VoxelMap(kPassedResolution_m)};
   const auto matcher = make_matcher(map, {});
+  const Cloud cloud{0, room.scan, {}};
   const Match match =
-      matcher->match({0, room.scan, {}}, PoseWindow{{3.2, 2.7, 2.2}, 1.2, 1.2, 3.2});
+      matcher->match(PreparedScan(cloud), PoseWindow{{3.2, 2.7, 2.2}, 1.2, 1.2, 3.2});
   ASSERT_FALSE(match.modes.empty());
   EXPECT_TRUE(match.certified);
   EXPECT_LT(distance_m(match.modes[0].pose, room.truth), 0.016);
@@ -146,9 +152,10 @@ TEST(WindowMatcher, MovesOnToWhereItsMapWasNotReadyYet) {
     map.occupied.insert({v.x + 2000, v.y, v.z});
   });
   const auto matcher = make_matcher(map, {});
+  const Cloud cloud{0, room.scan, {}};
   for (const double x : {0.0, 40.0, 0.0}) {
     const Pose2 truth{room.truth.x_m + x, room.truth.y_m, room.truth.yaw_rad};
-    const Match match = matcher->match({0, room.scan, {}}, PoseWindow{truth, 0.4, 0.4, 0.3});
+    const Match match = matcher->match(PreparedScan(cloud), PoseWindow{truth, 0.4, 0.4, 0.3});
     ASSERT_FALSE(match.modes.empty());
     EXPECT_LT(distance_m(match.modes[0].pose, truth), 0.016);
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "voxlist/matching/scan/prepared_scan.h"
 #include "voxlist/simulation/building/building.h"
 #include "voxlist/simulation/scanner/ideal_sweep.h"
 
@@ -26,7 +27,7 @@ OccupancyMap wall_ahead() {
 }
 
 Evidence of_ray(const OccupancyMap& map, const Eigen::Vector3f& from, const Eigen::Vector3f& to) {
-  return EvidenceMap(map).at({}, {{from, to}});
+  return EvidenceMap(map).at({}, std::vector{ScanRay{from, to}});
 }
 
 TEST(Evidence, TellsHitsFromShortReturnsAndFromTheUnknown) {
@@ -52,7 +53,7 @@ TEST(Evidence, LetsRaysGrazeAWallThatTheyEndOn) {
 
 TEST(Evidence, MovesRaysToThePose) {
   const OccupancyMap map = wall_ahead();
-  const std::vector<EvidenceRay> rays{{{0.0F, 0.0F, 1.0F}, {0.0F, 1.0F, 1.0F}}};
+  const std::vector<ScanRay> rays{{{0.0F, 0.0F, 1.0F}, {0.0F, 1.0F, 1.0F}}};
   EXPECT_EQ(EvidenceMap(map).at({1.0, 0.3, -M_PI_2}, rays).hits, 1);
   EXPECT_EQ(EvidenceMap(map).at({1.0, 0.3, M_PI_2}, rays).hits, 0);
 }
@@ -67,22 +68,6 @@ TEST(Evidence, IsBoundedForRaysOfAnyLengthInMapsOfAnySize) {
   EXPECT_EQ(of_ray(map, {0.0F, 0.0F, 1.0F}, {8e4F, 10.0F, 1.0F}).violations, 1);
   EXPECT_EQ(of_ray(map, {0.0F, 0.0F, 1.0F}, {4e4F, 8e4F, 1.0F}).violations, 0);
   EXPECT_EQ(of_ray(map, {0.0F, 0.0F, 1.0F}, {1e20F, 0.0F, 1.0F}).points, 0);
-}
-
-TEST(EvidenceRays, AreFewSpreadAndNotAllFloor) {
-  Cloud cloud;
-  for (float x = -5.0F; x < 5.0F; x += 0.1F)
-    for (float y = -5.0F; y < 5.0F; y += 0.1F) cloud.points.emplace_back(x, y, 0.0F);
-  for (float y = -5.0F; y < 5.0F; y += 0.1F)
-    for (float z = 0.05F; z < 2.5F; z += 0.1F) cloud.points.emplace_back(5.0F, y, z);
-  cloud.points.emplace_back(std::numeric_limits<float>::quiet_NaN(), 0.0F, 0.0F);
-  const auto rays = choose_evidence_rays(cloud, 300);
-  int floor = 0;
-  for (const auto& ray : rays) floor += ray.end.z() < 0.01F;
-  EXPECT_LE(rays.size(), 300U);
-  EXPECT_GT(rays.size(), 250U);
-  EXPECT_GT(floor, 10);
-  EXPECT_LT(floor, 60);
 }
 
 Cloud scan_at(const simulation::Building& building, const Pose2& pose) {
@@ -107,7 +92,9 @@ TEST(Evidence, HasNearlyNoViolationsAtTruePosesAndManyAtWrongOnes) {
   const EvidenceMap evidence(map);
   for (double x = 0.5; x < 13.0; x += 3.0) {
     const Pose2 pose{x, -0.2, 2.0 * x};
-    const auto rays = choose_evidence_rays(scan_at(building, pose));
+    const Cloud cloud = scan_at(building, pose);
+    const PreparedScan scan(cloud);
+    const auto& rays = scan.few_rays();
     const Evidence right = evidence.at(pose, rays);
     EXPECT_GT(right.hits, 0.8 * right.points);
     EXPECT_LT(right.misses, 0.07 * right.points);

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "tests/matching/synthetic_room.h"
-#include "voxlist/matching/scan/match_points.h"
 
 namespace voxlist::matching {
 namespace {
@@ -124,36 +123,6 @@ TEST(SurfelMap, KnowsWhatAChangeBrought) {
   add_wall(1.01, map);
   surfels.map_changed();
   EXPECT_NE(surfels.find(point, origin), nullptr);
-}
-
-TEST(MatchPoints, LeaveOutTheFloorAndKeepTheWalls) {
-  std::vector<Eigen::Vector3f> points;
-  for (float x = -4.f; x < 4.f; x += 0.05f) {
-    for (float y = -4.f; y < 4.f; y += 0.05f) points.emplace_back(x, y, 0.01f);
-    for (float z = 0.1f; z < 2.f; z += 0.05f) points.emplace_back(x, 4.f, z);
-  }
-  const auto chosen = choose_match_points(points, {});
-  const auto on_floor = std::count_if(chosen.points.begin(), chosen.points.end(),
-                                      [](auto& p) { return p.z() < 0.05f; });
-  EXPECT_LT(on_floor, static_cast<std::ptrdiff_t>(chosen.points.size() / 10));
-  EXPECT_GT(chosen.points.size(), 200u);
-}
-
-TEST(MatchPoints, DoNotDependOnTheOrderOfTheScan) {
-  auto points = synthetic_room(6.0, 5.0, {2.5, 2.0, 0.7}, 5000, 1).scan;
-  const auto chosen = choose_match_points(points, {.max_points = 500});
-  std::reverse(points.begin(), points.end());
-  const auto again = choose_match_points(points, {.max_points = 500});
-  EXPECT_EQ(chosen.points, again.points);
-  EXPECT_LE(chosen.points.size(), 500u);
-  EXPECT_GT(chosen.points.size(), 300u);
-  EXPECT_EQ(chosen.radius_m, again.radius_m);
-}
-
-TEST(MatchPoints, OfNothingAreNone) {
-  EXPECT_TRUE(choose_match_points({}, {}).points.empty());
-  const std::vector<Eigen::Vector3f> far{{1000.f, 0.f, 0.f}};
-  EXPECT_TRUE(choose_match_points(far, {}).points.empty());
 }
 
 }  // namespace

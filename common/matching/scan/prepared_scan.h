@@ -1,0 +1,93 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "voxlist/geometry/cloud.h"
+#include "voxlist/matching/scan/match_points.h"
+#include "voxlist/matching/scan/thinning.h"
+
+namespace voxlist::matching {
+
+/// Which points of a scan take part in matching.
+struct ScanConfig {
+  /// Points farther than this (m, horizontally) are left out: they would ask for finer angles than
+  /// they repay.
+  double max_range_m = 60.0;
+  /// Most points that a refinement uses. Changes speed, and little else.
+  int refine_points = 4000;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v("max_range_m", max_range_m, "points farther away take no part in matching", 1.0, 500.0);
+    v("refine_points", refine_points, "most points that a refinement uses: speed", 50, 100000);
+  }
+};
+
+/// One cloud with all that matching needs of it: made once for each cloud, and handed through. One
+/// routine thins it, to one point of each cube (thinning.h); each part is made when it is first
+/// asked for, and then kept. The cloud must outlive it. Use from one thread.
+class PreparedScan {
+ public:
+  explicit PreparedScan(const Cloud& cloud, const ScanConfig& config = {});
+  PreparedScan(Cloud&&, const ScanConfig& = {}) = delete;
+
+  const Cloud& cloud() const { return cloud_; }
+
+  /// How far most of the scan reaches (m), in few steps, at most max_range_m: maps are made ready
+  /// for each step.
+  double reach_m() const;
+
+  /// For refinement: the points that tell poses (x, y, yaw) apart. Surfaces that lie flat are left
+  /// out, unless nearly nothing else is there.
+  const MatchPoints& points() const;
+
+  /// For counting in a window, and for a first refinement: some of points(), spread as they are.
+  const MatchPoints& few_points() const;
+
+  /// For a particle filter, which counts in voxels down to 0.02 m: as points(), from cubes of half
+  /// the edge.
+  std::vector<Eigen::Vector3f> filter_points() const;
+
+  /// Indices of the cloud's points that are within range and in the voxels' lattice.
+  const std::vector<std::uint32_t>& in_range() const { return in_range_; }
+
+  /// For a search of the whole map: of the points with these indices, which its map finds telling,
+  /// one of each of the widest cubes that are enough. Surfaces count by their area, however many
+  /// points lie on the near ones. All of them when there are few.
+  std::vector<Eigen::Vector3f> search_points(const std::vector<std::uint32_t>& telling) const;
+
+  /// Rays close together: what is near counts most, and so do small things in it.
+  const std::vector<ScanRay>& near_rays() const;
+
+  /// Rays spread evenly over all surfaces in sight.
+  const std::vector<ScanRay>& even_rays() const;
+
+  /// Some of even_rays(), for what is asked at many poses or of every scan.
+  const std::vector<ScanRay>& few_rays() const;
+
+ private:
+  // Cubes of kFinestCube_m, twice and four times as wide.
+  static constexpr std::size_t kLevels = 3;
+  using Indices = std::vector<std::uint32_t>;
+
+  const std::vector<InCube>& cubes(std::size_t level) const;
+  std::vector<InCube> upright_cubes() const;
+  MatchPoints taken(const Indices& indices) const;
+  std::vector<ScanRay> rays(const Indices& indices) const;
+
+  const Cloud& cloud_;
+  const ScanConfig config_;
+  const Indices in_range_;
+  mutable std::array<std::optional<std::vector<InCube>>, kLevels> cubes_;
+  mutable std::optional<MatchPoints> points_, few_points_;
+  mutable std::optional<std::vector<ScanRay>> near_rays_, even_rays_, few_rays_;
+};
+
+/// About every k-th of the points, so that at most `most` remain: spread as they are.
+MatchPoints some_of(const MatchPoints& points, std::size_t most);
+
+}  // namespace voxlist::matching
