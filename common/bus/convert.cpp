@@ -47,6 +47,7 @@ void write_pose(const Pose3& pose, double (&position)[3], double (&quaternion)[4
 // Adds point i unless it or its origin is no measurement. Returns how many were dropped.
 std::int64_t add(const Eigen::Vector3f& point, const Eigen::Vector3f* origin, Cloud& cloud) {
   if (!is_sane(point) || (origin != nullptr && !is_sane(*origin))) return 1;
+  if (point.isZero(0.0F) || (origin != nullptr && point == *origin)) return 1;
   cloud.points.push_back(point);
   if (origin != nullptr) cloud.origins.push_back(*origin);
   return 0;

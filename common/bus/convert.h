@@ -24,7 +24,8 @@ struct ReceivedCloud {
   /// Why it is refused, as a counter's name; empty when it is not.
   std::string refusal;
 
-  /// Points left out: not finite, or beyond kMaxPoint_m.
+  /// Points left out: not finite, beyond kMaxPoint_m, or 0,0,0 (or where their ray started), which
+  /// stands for "nothing came back".
   std::int64_t dropped_points = 0;
 };
 

@@ -1,8 +1,27 @@
 #include "voxlist/mapping/map_builder.h"
 
+#include <limits>
 #include <numbers>
 
+#include "voxlist/geometry/range.h"
+
 namespace voxlist::mapping {
+namespace {
+
+void remove_near(Cloud& cloud, double min_range_m) {
+  constexpr double kAny_m = std::numeric_limits<double>::infinity();
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    if (!is_within(cloud, i, min_range_m, kAny_m)) continue;
+    cloud.points[kept] = cloud.points[i];
+    if (!cloud.origins.empty()) cloud.origins[kept] = cloud.origins[i];
+    ++kept;
+  }
+  cloud.points.resize(kept);
+  if (!cloud.origins.empty()) cloud.origins.resize(kept);
+}
+
+}  // namespace
 
 bool MapBuilder::wants(const Pose2& pose) const {
   if (keyframes_.empty()) return true;
@@ -12,6 +31,7 @@ bool MapBuilder::wants(const Pose2& pose) const {
 }
 
 void MapBuilder::add(Keyframe keyframe) {
+  remove_near(keyframe.cloud, config_.min_range_m);
   changed_blocks_ = add_scan(keyframe.cloud, keyframe.T_map_base, config_.max_range_m, map_);
   keyframes_.push_back(std::move(keyframe));
 }

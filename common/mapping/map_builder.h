@@ -21,6 +21,8 @@ struct MapBuilderConfig {
   double min_turn_deg = 12.0;
   /// Points farther from the sensor than this are left out (m).
   double max_range_m = 100.0;
+  /// Points nearer than this are no points (m): a window, a drop, or 0,0,0 for "nothing came back".
+  double min_range_m = 0.05;
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -28,6 +30,7 @@ struct MapBuilderConfig {
       100.0);
     v("min_turn_deg", min_turn_deg, "turn after which a cloud is added to the map", 0.0, 180.0);
     v("max_range_m", max_range_m, "points farther away than this stay out of the map", 0.5, 1000.0);
+    v("min_range_m", min_range_m, "points nearer than this are no points, nor is 0,0,0", 0.0, 10.0);
   }
 };
 
@@ -41,7 +44,8 @@ class MapBuilder {
   /// the last keyframe.
   bool wants(const Pose2& pose) const;
 
-  /// Puts a keyframe into the map, whatever wants() says.
+  /// Puts a keyframe into the map, whatever wants() says; without its points nearer than
+  /// min_range_m.
   void add(Keyframe keyframe);
 
   const OccupancyMap& map() const { return map_; }

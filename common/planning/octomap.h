@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -15,16 +16,19 @@ namespace voxlist::planning {
 /// What an OctoMap is made with. The probabilities are OctoMap's own defaults.
 struct OctomapConfig {
   double resolution_m = 0.1;
-  double max_range_m = -1.0;
+  /// As the mapper's: memory and time of a cloud are bounded by it (100 points at 3 km took 1.4
+  /// GB).
+  double max_range_m = 100.0;
+  double min_range_m = 0.05;
   double hit_probability = 0.7;
   double miss_probability = 0.4;
 
   template <class Visitor>
   void visit(Visitor& v) {
     v("resolution_m", resolution_m, "edge of the smallest voxel", 0.01, 10.0);
-    v("max_range_m", max_range_m,
-      "longer rays only free this much of their way, and hit nothing; negative: no limit", -1.0,
+    v("max_range_m", max_range_m, "points farther away than this stay out, ray and all", 0.5,
       1000.0);
+    v("min_range_m", min_range_m, "points nearer than this are no points, nor is 0,0,0", 0.0, 10.0);
     v("hit_probability", hit_probability, "that a voxel is occupied, after one hit", 0.51, 0.99);
     v("miss_probability", miss_probability, "that a voxel is occupied, after one pass", 0.01, 0.49);
   }
@@ -43,7 +47,7 @@ struct OctomapSize {
 };
 
 /// Builds an OctoMap from clouds with poses by OctoMap's own ray insertion, every ray from where it
-/// started, at full length, cell by cell. Slow and right: the reference that faster ones are held
+/// started, cell by cell. Slow and right: the reference that faster ones are held
 /// against. The same clouds in the same order give the same bytes.
 class OctomapBuilder {
  public:
@@ -54,8 +58,10 @@ class OctomapBuilder {
 
   /// Adds a cloud: frees the voxels that its rays pass, occupies those that they hit; a voxel
   /// counts once a cloud, and one both hit and passed is hit, as in octomap's insertPointCloud.
-  /// Rays that leave the tree's bounds (2^15 voxels from the origin) are left out.
-  void insert(const Pose3& T_map_base, const Cloud& cloud_base);
+  /// Rays that leave the tree's bounds (2^15 voxels from the origin) are left out. Asks `stopped`,
+  /// where given, every few rays; once it says yes the cloud is left out, and the answer is false.
+  bool insert(const Pose3& T_map_base, const Cloud& cloud_base,
+              const std::function<bool()>& stopped = {});
 
   /// The bytes of a .bt file, as map_octree_t carries them: every voxel free or occupied, pruned.
   std::vector<std::uint8_t> binary() const;

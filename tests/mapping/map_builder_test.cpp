@@ -37,11 +37,22 @@ TEST(MapBuilder, LeavesOutPointsBeyondItsRangeFromTheirOrigin) {
   EXPECT_TRUE(builder.map().occupied.contains(voxel_at(Eigen::Vector3d(6.0, 1.0, 0.0), 0.02)));
 }
 
+TEST(MapBuilder, TakesPointsAtNoRangeForNoPoints) {
+  MapBuilder builder;
+  builder.add(keyframe_at({}, {{0.f, 0.f, 0.f}, {0.04f, 0.f, 0.f}, {0.06f, 0.f, 0.f}}));
+  EXPECT_EQ(builder.map().occupied.size(), 1u);
+  Keyframe keyframe = keyframe_at({}, {{2.f, 0.f, 0.f}, {0.f, 0.f, 0.f}, {3.f, 0.f, 0.f}});
+  keyframe.cloud.origins = {{2.f, 0.02f, 0.f}, {0.3f, 0.f, 0.f}, {0.3f, 0.f, 0.f}};
+  builder.add(keyframe);
+  EXPECT_EQ(builder.keyframes().back().cloud.points, (std::vector<Eigen::Vector3f>{{3, 0, 0}}));
+  EXPECT_EQ(builder.keyframes().back().cloud.origins.size(), 1u);
+}
+
 TEST(MapBuilder, NamesTheBlocksThatAKeyframeChanged) {
   MapBuilder builder;
-  builder.add(keyframe_at({}, {{0.01f, 0.01f, 0.01f}, {5.01f, 0.01f, 0.01f}}));
+  builder.add(keyframe_at({}, {{0.11f, 0.01f, 0.01f}, {5.01f, 0.01f, 0.01f}}));
   EXPECT_EQ(builder.changed_blocks().occupied, (std::vector<Voxel>{{0, 0, 0}, {31, 0, 0}}));
-  builder.add(keyframe_at({}, {{0.01f, 0.01f, 0.01f}, {5.03f, 0.01f, 0.01f}}));
+  builder.add(keyframe_at({}, {{0.11f, 0.01f, 0.01f}, {5.03f, 0.01f, 0.01f}}));
   EXPECT_EQ(builder.changed_blocks().occupied, (std::vector<Voxel>{{31, 0, 0}}));
 }
 
