@@ -44,6 +44,23 @@ TEST_F(Evaluate, DrawsBesideTheTrajectoryOrWhereItIsTold) {
   EXPECT_GT(std::filesystem::file_size(work_ / "plot.svg"), 1000u);
 }
 
+TEST_F(Evaluate, ReadsTheFormsOfOthersOnBothSides) {
+  test::write_text(work_ / "kitti.txt",
+                   "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 1 0 1 0 0 0 0 1 0\n"
+                   "1 0 0 2 0 1 0 0 0 0 1 0\n1 0 0 3 0 1 0 0 0 0 1 0\n");
+  test::write_text(work_ / "euroc.csv",
+                   "#timestamp, p_RS_R_x [m], p_RS_R_y [m], p_RS_R_z [m], q_RS_w [], q_RS_x [], "
+                   "q_RS_y [], q_RS_z []\n"
+                   "0,0,0,0,1,0,0,0\n1000000000,1,0,0,1,0,0,0\n2000000000,2,0,0,1,0,0,0\n"
+                   "3000000000,3,0,0,1,0,0,0\n");
+  for (const std::string truth : {"kitti.txt", "euroc.csv", "trajectory.tum"}) {
+    const test::DeskRun run = test::run({"evaluate", work_ / truth, work_ / "poses.csv"});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_THAT(run.out, HasSubstr("4 of 4 poses matched"));
+    EXPECT_EQ(test::run({"evaluate", work_ / "trajectory.tum", work_ / truth}).exit_code, 0);
+  }
+}
+
 TEST_F(Evaluate, SaysWhenNothingBelongsTogether) {
   test::write_text(work_ / "poses.csv", "t,x,y,yaw,scan\n1000,0,0,0,77\n1001,1,0,0,78\n");
   const test::DeskRun run = test::run({"evaluate", work_ / "trajectory.tum", work_ / "poses.csv"});

@@ -118,6 +118,72 @@ TEST_F(Map, FindsGivenPosesForALogByTime) {
   EXPECT_EQ(trajectory[0].utime_us, 3'000'000);
 }
 
+TEST_F(Map, TakesThePosesOfItsOwnTrajectoryAndTellsWhichRowHasNoScan) {
+  ASSERT_EQ(map(scans_, folder_).exit_code, 0);
+  fs::remove(scans_ + "/scan_3.ply");
+  const test::DeskRun run =
+      map(scans_, work_ / "again", {"--use-poses", folder_ + "/trajectory.tum"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("row 3 has no scan"));
+  auto expected = io::read_tum(folder_ + "/trajectory.tum");
+  expected.erase(expected.begin() + 3);
+  const auto again = io::read_tum(work_ / "again/trajectory.tum");
+  ASSERT_EQ(again.size(), expected.size());
+  for (std::size_t i = 0; i < again.size(); ++i) {
+    EXPECT_EQ(again[i].utime_us, expected[i].utime_us);
+    EXPECT_TRUE(again[i].pose.isApprox(expected[i].pose, 1e-6)) << i;
+  }
+}
+
+TEST_F(Map, TakesTheOffsetOffPosesFarFromTheOriginAndTells) {
+  test::write_text(work_ / "utm.csv",
+                   "index,x,y,z,yaw\n0,458074.6,5429380.2,2,0\n1,458075.0,5429380.2,2,0\n");
+  const test::DeskRun run = map(scans_, folder_, {"--use-poses", work_ / "utm.csv"});
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_THAT(run.err, HasSubstr("5449 km from the origin"));
+  EXPECT_THAT(run.err, HasSubstr("an offset of (458075, 5429380, 2) m is taken off"));
+  EXPECT_GT(summary(folder_)["voxels"], 100);
+  EXPECT_EQ(summary(folder_)["offset_m"], nlohmann::json({458075.0, 5429380.0, 2.0}));
+  EXPECT_NEAR(io::read_tum(folder_ + "/trajectory.tum")[1].pose.translation().y(), 0.2, 1e-6);
+}
+
+TEST_F(Map, RefusesPosesFartherApartThanAMapReaches) {
+  test::write_text(work_ / "given.csv", "index,x,y,yaw\n0,0,0,0\n1,200000,0,0\n");
+  const test::DeskRun run = map(scans_, folder_, {"--use-poses", work_ / "given.csv"});
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.err, HasSubstr("pose 1 lies 200 km from the origin"));
+}
+
+TEST_F(Map, OfScansInMillimetresIsEmptyAndSaidSo) {
+  Cloud cloud;
+  for (int i = 0; i < 60; ++i)
+    cloud.points.emplace_back(2500.0F, 40.0F * static_cast<float>(i), 500.0F);
+  fs::create_directory(work_ / "mm");
+  io::write_ply(work_ / "mm/scan_0.ply", cloud);
+  test::write_text(work_ / "given.csv", "index,x,y,yaw\n0,0,0,0\n");
+  const test::DeskRun run = map(work_ / "mm", folder_, {"--use-poses", work_ / "given.csv"});
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.err, HasSubstr("are they millimetres?"));
+  EXPECT_THAT(run.err, HasSubstr("the map is empty"));
+  EXPECT_LT(fs::file_size(folder_ + "/map.bt"), 1000u);
+}
+
+TEST_F(Map, HasNoVoxelWhereTheRobotStoodForRaysThatDidNotComeBack) {
+  Cloud cloud;
+  for (int i = 0; i < 100; ++i) {
+    cloud.points.emplace_back(2.0F, 0.05F * static_cast<float>(i), 0.5F);
+    cloud.points.emplace_back(0.0F, 0.0F, 0.0F);
+  }
+  fs::create_directory(work_ / "zeros");
+  io::write_ply(work_ / "zeros/scan_0.ply", cloud);
+  test::write_text(work_ / "given.csv", "index,x,y,yaw\n0,1,2,0\n");
+  ASSERT_EQ(map(work_ / "zeros", folder_, {"--use-poses", work_ / "given.csv"}).exit_code, 0);
+  const Cloud voxels = io::read_cloud_file(folder_ + "/map.ply");
+  EXPECT_GE(voxels.points.size(), 90u);
+  for (const auto& voxel : voxels.points)
+    EXPECT_GT((voxel - Eigen::Vector3f(1.0F, 2.0F, 0.0F)).norm(), 0.1F);
+}
+
 TEST_F(Map, RefusesGivenPosesOfAnotherRun) {
   test::write_text(work_ / "given.csv", "t,x,y,yaw\n1000,1,2,0.5\n");
   const test::DeskRun run = map(import(), folder_, {"--use-poses", work_ / "given.csv"});

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <sstream>
 #include <voxlist/pose_t.hpp>
@@ -26,6 +27,17 @@ class ScanInputs : public testing::Test {
     return scans;
   }
 
+  std::string refusal(const std::string& path) {
+    try {
+      ScanInput input(path, console_);
+      while (input.next()) {
+      }
+    } catch (const std::exception& error) {
+      return error.what();
+    }
+    return "not refused";
+  }
+
   test::WorkFolder work_;
   std::ostringstream out_, err_;
   Console console_{out_, err_, false};
@@ -39,8 +51,10 @@ Cloud cloud_at(std::int64_t utime_us) {
   return cloud;
 }
 
-void write_cloud(bus::EventLogWriter& log, std::int64_t utime_us) {
-  log.write(bus::kCloud, utime_us, bus::to_message(cloud_at(utime_us), "base", 0));
+// At that many milliseconds.
+void write_cloud(bus::EventLogWriter& log, std::int64_t time_ms, std::int32_t seq = 0) {
+  const std::int64_t utime_us = 1000 * time_ms;
+  log.write(bus::kCloud, utime_us, bus::to_message(cloud_at(utime_us), "base", seq));
 }
 
 TEST_F(ScanInputs, GiveTheSameScansFromAFolderAndFromItsLog) {
@@ -64,8 +78,8 @@ TEST_F(ScanInputs, TellWhereOdometryStoodAtEachScan) {
   {
     bus::EventLogWriter log(work_ / "log");
     write_cloud(log, 50);
-    log.write(bus::kOdometry, 100, bus::to_message(StampedPose2{100, {1.0, 2.0, 0.5}}));
-    log.write(bus::kOdometry, 300, bus::to_message(StampedPose2{300, {7.0, 7.0, 0.7}}));
+    log.write(bus::kOdometry, 100, bus::to_message(StampedPose2{100'000, {1.0, 2.0, 0.5}}));
+    log.write(bus::kOdometry, 300, bus::to_message(StampedPose2{300'000, {7.0, 7.0, 0.7}}));
     write_cloud(log, 200);
   }
   const auto scans = read(work_ / "log");
@@ -112,6 +126,91 @@ TEST_F(ScanInputs, TellOnlyTheFirstFewOfManyFaults) {
   EXPECT_EQ(read(work_ / "log").size(), 1u);
   EXPECT_EQ(omissions_, "1000 CLOUD/truncated");
   EXPECT_LT(err_.str().size(), 1000u);
+}
+
+TEST_F(ScanInputs, CountTheCloudsThatALogLost) {
+  {
+    bus::EventLogWriter log(work_ / "log");
+    for (const int seq : {7, 8, 10, 11}) write_cloud(log, 100 * seq, seq);
+    write_cloud(log, 5000, 0);  // the sender started anew
+    write_cloud(log, 6000, 2);
+  }
+  std::vector<std::int64_t> numbers;
+  for (const Scan& scan : read(work_ / "log")) numbers.push_back(scan.number);
+  EXPECT_EQ(numbers, (std::vector<std::int64_t>{0, 1, 3, 4, 5, 7}));
+}
+
+TEST_F(ScanInputs, NameWhatALogWithoutScansHolds) {
+  {
+    bus::EventLogWriter log(work_ / "log");
+    for (int i = 0; i < 3; ++i) log.write("VELODYNE_POINTS", i, std::vector<std::uint8_t>(3, 0));
+    log.write("a/CLOUD", 5, std::vector<std::uint8_t>(3, 0));
+  }
+  EXPECT_THAT(refusal(work_ / "log"), HasSubstr("has no CLOUD; it holds VELODYNE_POINTS (3), "
+                                                "a/CLOUD (1)"));
+}
+
+TEST_F(ScanInputs, RefuseTimesThatAreNoMicroseconds) {
+  const auto refused = [this](const std::vector<std::int64_t>& utimes_us) {
+    bus::EventLogWriter log(work_ / "log");
+    for (const auto utime_us : utimes_us)
+      log.write(bus::kCloud, 0, bus::to_message(cloud_at(utime_us), "base", 0));
+    log.close();
+    return refusal(work_ / "log");
+  };
+  constexpr std::int64_t kNow_s = 1'700'000'000;
+  EXPECT_THAT(refused({kNow_s * 1'000'000'000, kNow_s * 1'000'000'000 + 5}),
+              HasSubstr("looks like nanoseconds, it must be in microseconds: divide it by 1000"));
+  EXPECT_THAT(refused({kNow_s, kNow_s + 1, kNow_s + 2, kNow_s + 3}),
+              HasSubstr("1 us apart: utime looks like seconds"));
+  EXPECT_THAT(refused({kNow_s, kNow_s + 1}), HasSubstr("looks like seconds"));
+  EXPECT_THAT(refused({kNow_s * 1000, kNow_s * 1000 + 100, kNow_s * 1000 + 200}),
+              HasSubstr("100 us apart: utime looks like milliseconds"));
+  EXPECT_THAT(refused({0, 0, 0}), HasSubstr("every scan has the utime 0"));
+  EXPECT_THAT(refused({7, 7}), HasSubstr("every scan has the utime 7"));
+  EXPECT_THAT(refused({3'000'000, 2'000'000, 1'000'000}), HasSubstr("run backwards"));
+}
+
+TEST_F(ScanInputs, LeaveOutAScanThatIsNoLaterThanTheOneBefore) {
+  {
+    bus::EventLogWriter log(work_ / "log");
+    for (const int time_ms : {1000, 2000, 2000, 1500, 3000}) write_cloud(log, time_ms);
+  }
+  EXPECT_EQ(read(work_ / "log").size(), 3u);
+  EXPECT_EQ(omissions_, "1 CLOUD/utime backwards, 1 CLOUD/utime repeated");
+}
+
+TEST_F(ScanInputs, AskAboutScansThatComeMinutesApart) {
+  {
+    bus::EventLogWriter log(work_ / "log");
+    for (const int s : {0, 1000, 2000}) write_cloud(log, 1000 * s);
+  }
+  EXPECT_EQ(read(work_ / "log").size(), 3u);
+  EXPECT_THAT(err_.str(), HasSubstr("1000 s apart: is utime in nanoseconds?"));
+}
+
+TEST_F(ScanInputs, TellWhatIsOddWithPoints) {
+  const auto told = [this](const std::vector<Eigen::Vector3f>& points) {
+    {
+      Cloud cloud = cloud_at(1'000'000);
+      cloud.points = points;
+      bus::EventLogWriter log(work_ / "log");
+      log.write(bus::kCloud, 0, bus::to_message(cloud, "base", 0));
+    }
+    err_.str("");
+    read(work_ / "log");
+    return err_.str();
+  };
+  std::vector<Eigen::Vector3f> points(60, {3000.0F, 0.0F, 0.0F});
+  EXPECT_THAT(told(points), HasSubstr("60 of 60 points lie beyond max_range_m, 100 m, half of them "
+                                      "beyond 3000 m: are they millimetres?"));
+  points.assign(60, {458'000.0F, 5'429'000.0F, 0.0F});
+  EXPECT_THAT(told(points), HasSubstr("60 of 60 points lie beyond"));
+  points.assign(60, {3.0F, 0.0F, 0.0F});
+  EXPECT_EQ(told(points), "");
+  std::fill_n(points.begin(), 20, Eigen::Vector3f::Zero());
+  EXPECT_THAT(told(points), HasSubstr("20 of 60 points are 0,0,0 or nearer than min_range_m"));
+  EXPECT_THAT(told({{3.0F, 0.0F, 0.0F}}), HasSubstr("has only 1 points"));
 }
 
 }  // namespace

@@ -1,11 +1,14 @@
 #include <gmock/gmock.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
 #include <filesystem>
 #include <sstream>
 
 #include "services/voxlist/output/console.h"
 #include "services/voxlist/output/progress.h"
+#include "services/voxlist/output/stop.h"
 #include "tests/desk/scan_set.h"
 
 namespace voxlist::desk {
@@ -45,6 +48,30 @@ TEST_F(Usage, ThatIsWrongHasAnExitCodeOfItsOwn) {
     EXPECT_GT(run.exit_code, 100);
     EXPECT_THAT(run.err, HasSubstr("--help"));
   }
+}
+
+TEST_F(Usage, NamesAWordThatIsNoCommand) {
+  const test::DeskRun run = test::run({"mpa", "x", "-o", "y"});
+  EXPECT_GT(run.exit_code, 100);
+  EXPECT_THAT(run.err, HasSubstr("\"mpa\" is no command, it must be one of import, map, "));
+  EXPECT_THAT(test::run({"map", "x", "-o", "y", "zz"}).err, HasSubstr("zz"));
+}
+
+TEST_F(Usage, EndsWithinASecondOfCtrlCAlsoWhenNobodyLooks) {
+  const auto interrupted = [] {
+    stop_on_interrupt();
+    std::raise(SIGINT);
+    for (;;) pause();
+  };
+  EXPECT_EXIT(interrupted(), testing::ExitedWithCode(kInterrupted), "voxlist: interrupted");
+}
+
+TEST_F(Usage, EndsWith130AfterCtrlCWhateverTheCommandSays) {
+  stop_on_interrupt();
+  std::raise(SIGINT);
+  const test::DeskRun run = test::run({"evaluate", work_ / "none", work_ / "none"});
+  stop_on_interrupt();
+  EXPECT_EQ(run.exit_code, kInterrupted);
 }
 
 TEST_F(Usage, SaysThatAnInputIsNotThere) {

@@ -1,11 +1,15 @@
 #include "services/voxlist/commands/desk.h"
 
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <sstream>
 
 #include "services/voxlist/commands/command.h"
 #include "services/voxlist/output/console.h"
+#include "services/voxlist/output/stop.h"
 #include "voxlist/system/version.h"
 
 namespace voxlist::desk {
@@ -23,6 +27,36 @@ int explain(const CLI::App& program, const CLI::ParseError& error, Console& cons
   if (!out.str().empty()) console.say(without_last_newline(out.str()));
   if (!err.str().empty()) console.warn(without_last_newline(err.str()));
   return exit_code;
+}
+
+std::vector<std::string> names_of_commands(const CLI::App& program) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : program.get_subcommands({})) names.push_back(command->get_name());
+  return names;
+}
+
+// CLI11 only says that a command is missing when the first word is none of them.
+bool is_unknown_word(const CLI::App& program, const std::vector<std::string>& arguments) {
+  return !arguments.empty() && !arguments.front().starts_with('-') &&
+         std::ranges::count(names_of_commands(program), arguments.front()) == 0;
+}
+
+int tell_unknown_word(const CLI::App& program, const std::string& word, Console& console) {
+  console.warn(fmt::format("\"{}\" is no command, it must be one of {}; see voxlist --help", word,
+                           fmt::join(names_of_commands(program), ", ")));
+  return static_cast<int>(CLI::ExitCodes::ExtrasError);
+}
+
+// An error in one line becomes exit code 1.
+int run_command(const Command& command, Console& console) {
+  try {
+    return command(console);
+  } catch (const std::bad_alloc&) {
+    console.warn("out of memory, give it fewer or smaller scans");
+  } catch (const std::exception& error) {
+    console.warn(error.what());
+  }
+  return 1;
 }
 
 }  // namespace
@@ -43,20 +77,16 @@ int run_desk(std::vector<std::string> arguments, Console& console) {
 #endif
   add_watch(program, chosen);
   add_health(program, chosen);
+  if (is_unknown_word(program, arguments))
+    return tell_unknown_word(program, arguments.front(), console);
   try {
     std::ranges::reverse(arguments);  // as CLI11 wants them
     program.parse(std::move(arguments));
   } catch (const CLI::ParseError& error) {
     return explain(program, error, console);
   }
-  try {
-    return chosen(console);
-  } catch (const std::bad_alloc&) {
-    console.warn("out of memory, give it fewer or smaller scans");
-  } catch (const std::exception& error) {
-    console.warn(error.what());
-  }
-  return 1;
+  const int exit_code = run_command(chosen, console);
+  return stop_requested() ? kInterrupted : exit_code;
 }
 
 }  // namespace voxlist::desk

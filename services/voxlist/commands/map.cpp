@@ -34,9 +34,8 @@ void localise_all(ScanInput& input, MapRun& run, Progress& progress) {
 }
 
 // Places the scans that the table knows. Returns how many it does not know.
-std::int64_t place_all(const std::filesystem::path& table, ScanInput& input, MapRun& run,
-                       Progress& progress) {
-  const GivenPoses poses(table, input);
+std::int64_t place_all(const std::filesystem::path& table, const GivenPoses& poses,
+                       ScanInput& input, MapRun& run, Progress& progress) {
   std::int64_t unknown = 0;
   while (auto scan = input.next()) {
     if (const auto pose = poses.of(*scan)) {
@@ -60,7 +59,9 @@ RunFigures make_map(const MapOptions& options, ScanInput& input, MapRun& run, Co
     if (options.poses.empty()) {
       localise_all(input, run, progress);
     } else {
-      figures.without_pose = place_all(options.poses, input, run, progress);
+      const GivenPoses poses(options.poses, input, console);
+      figures.offset_m = poses.offset_m();
+      figures.without_pose = place_all(options.poses, poses, input, run, progress);
     }
   }
   figures.elapsed_seconds =
@@ -88,13 +89,21 @@ void tell(const MapOptions& options, const MapRun& run, const RunFigures& figure
   console.say((options.folder / "map.png").string());
 }
 
+// Scans that were placed, and still nothing to see.
+bool tell_if_empty(const MapRun& run, Console& console) {
+  if (run.trajectory().empty() || !run.builder().map().empty()) return false;
+  console.warn("the map is empty: no point of any scan lies between min_range_m and max_range_m");
+  return true;
+}
+
 int map(const MapOptions& options, Console& console) {
   DeskSettings settings = read_settings(options.config);
   if (options.octomap_resolution_m > 0.0)
     settings.octomap.resolution_m = options.octomap_resolution_m;
   if (options.threads > 0) settings.localiser.threads = options.threads;
 
-  ScanInput input(options.input, console);
+  ScanInput input(options.input, console,
+                  {settings.mapper.min_range_m, settings.mapper.max_range_m});
   MapFiles files(options.folder);
   MapRun run(settings.localiser, settings.mapper);
   const RunFigures figures = make_map(options, input, run, console);
@@ -104,7 +113,7 @@ int map(const MapOptions& options, Console& console) {
   tell(options, run, figures, console);
   if (figures.interrupted) console.warn("interrupted: the map ends there");
   if (!has_octomap) console.warn("interrupted: there is no map.bt");
-  return has_octomap ? 0 : kInterrupted;
+  return tell_if_empty(run, console) ? 1 : 0;
 }
 
 void add_options(CLI::App& command, MapOptions& options) {

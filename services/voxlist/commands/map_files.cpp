@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -31,6 +32,22 @@ fs::path made(fs::path folder) {
 // The map's id follows from its content, so the same map has the same id. It is positive, never 0.
 std::int64_t map_id(const VoxelMap& map) { return static_cast<std::int64_t>(map.hash() >> 1 | 1); }
 
+// How far from its origin an OctoMap reaches: it has 2^16 voxels along each axis.
+double reach_m(const planning::OctomapConfig& config) { return 32768.0 * config.resolution_m; }
+
+void tell_what_lies_beyond(const mapping::MapBuilder& builder,
+                           const planning::OctomapConfig& config, Console& console) {
+  const auto is_beyond = [&](const mapping::Keyframe& keyframe) {
+    return keyframe.T_map_base.translation().cwiseAbs().maxCoeff() > reach_m(config);
+  };
+  const auto beyond = std::ranges::count_if(builder.keyframes(), is_beyond);
+  if (beyond == 0) return;
+  console.warn(
+      fmt::format("{} keyframes lie beyond the {:.1f} km that map.bt reaches at {:g} m: "
+                  "give a larger --octomap-resolution",
+                  beyond, reach_m(config) / 1000.0, config.resolution_m));
+}
+
 }  // namespace
 
 MapFiles::MapFiles(fs::path folder)
@@ -47,11 +64,12 @@ void MapFiles::write_map(const MapRun& run) const {
 
 bool MapFiles::write_octomap(const mapping::MapBuilder& builder,
                              const planning::OctomapConfig& config, Console& console) const {
+  tell_what_lies_beyond(builder, config, console);
   planning::OctomapBuilder octomap(config);
   Progress progress(console, "making the OctoMap");
   const auto& keyframes = builder.keyframes();
   for (std::size_t i = 0; i < keyframes.size() && !stop_requested(); ++i) {
-    octomap.insert(keyframes[i].T_map_base, keyframes[i].cloud);
+    octomap.insert(keyframes[i].T_map_base, keyframes[i].cloud, stop_requested);
     progress.show(static_cast<double>(i + 1) / static_cast<double>(keyframes.size()));
   }
   const fs::path file = folder_ / "map.bt";
@@ -78,6 +96,7 @@ void MapFiles::write_summary(const MapRun& run, const RunFigures& figures) {
       {"without_pose", figures.without_pose},
       {"left_out", figures.left_out},
       {"keyframes", run.builder().keyframes().size()},
+      {"offset_m", {figures.offset_m.x(), figures.offset_m.y(), figures.offset_m.z()}},
       {"seconds", figures.seconds},
       {"elapsed_seconds", figures.elapsed_seconds},
       {"real_time_factor", factor},

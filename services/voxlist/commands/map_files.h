@@ -14,10 +14,11 @@ namespace voxlist::desk {
 struct RunFigures {
   std::string input;
   std::int64_t scans = 0;
-  std::int64_t left_out = 0;      ///< could not be read
-  std::int64_t without_pose = 0;  ///< not in the table of --use-poses
-  double seconds = 0.0;           ///< of data
-  double elapsed_seconds = 0.0;   ///< of work, without writing files
+  std::int64_t left_out = 0;                           ///< could not be read
+  std::int64_t without_pose = 0;                       ///< not in the table of --use-poses
+  Eigen::Vector3d offset_m = Eigen::Vector3d::Zero();  ///< taken off the poses of --use-poses
+  double seconds = 0.0;                                ///< of data
+  double elapsed_seconds = 0.0;                        ///< of work, without writing files
   bool interrupted = false;
 };
 

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "services/voxlist/output/console.h"
 #include "services/voxlist/recording/scan_input.h"
 #include "voxlist/io/poses/pose_file.h"
 
@@ -10,11 +11,14 @@ namespace voxlist::desk {
 
 /// A table that says where each scan was taken: matched as poses.csv in a scan folder, in a log by
 /// time (to 0.01 s) where the table has times, else by the scan's number.
+///
+/// Poses far from the origin (UTM) are moved near it, by the first one's whole metres: no map
+/// reaches that far.
 class GivenPoses {
  public:
-  /// Throws FileError when the file is no table of poses.
-  GivenPoses(const std::filesystem::path& path, const ScanInput& input)
-      : table_(io::read_poses(path)), row_of_(input.match(table_)) {}
+  /// Throws FileError when the file is no table of poses, or they lie farther apart than a map
+  /// reaches. Tells when it moves them.
+  GivenPoses(const std::filesystem::path& path, const ScanInput& input, Console& console);
   GivenPoses(const GivenPoses&) = delete;
   GivenPoses& operator=(const GivenPoses&) = delete;
 
@@ -24,9 +28,13 @@ class GivenPoses {
     return row ? std::optional(table_.rows[*row].pose) : std::nullopt;
   }
 
+  /// What was taken off each position (m); zero of poses near the origin.
+  const Eigen::Vector3d& offset_m() const { return offset_m_; }
+
  private:
-  const io::PoseTable table_;
+  io::PoseTable table_;
   const RowOfScan row_of_;
+  Eigen::Vector3d offset_m_ = Eigen::Vector3d::Zero();
 };
 
 }  // namespace voxlist::desk

@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <map>
 
+#include "services/voxlist/recording/channel_counts.h"
 #include "services/voxlist/recording/recording.h"
 #include "voxlist/bus/event_log.h"
 #include "voxlist/io/files/file.h"
@@ -13,6 +14,9 @@ namespace {
 
 // How far a pose's time may be from its scan's (us): what rounding to hundredths of a second costs.
 constexpr std::int64_t kSameTime_us = 10'000;
+
+// A jump in seq beyond this comes from a sender that started anew.
+constexpr std::int64_t kMaxGap = 1000;
 
 RowOfScan match_times(const io::PoseTable& poses) {
   std::map<std::int64_t, std::size_t> rows;
@@ -53,6 +57,7 @@ class LogRecording : public Recording {
   std::optional<Record> next() override {
     while (auto event = log_.next()) {
       tell_damage();
+      channels_.add(event->channel);
       if (auto record = read(*event)) return record;
     }
     tell_damage();
@@ -63,6 +68,8 @@ class LogRecording : public Recording {
     return static_cast<double>(log_.position_bytes()) / static_cast<double>(log_.size_bytes());
   }
 
+  std::string contents() const override { return channels_.text(); }
+
   RowOfScan match(const io::PoseTable& poses) const override {
     return poses.has_times ? match_times(poses) : match_numbers(poses);
   }
@@ -71,8 +78,22 @@ class LogRecording : public Recording {
   std::optional<Record> read(const bus::Event& event) {
     if (event.channel == bus::kOdometry.name) return decoded(event, OdometryRecord{});
     if (event.channel == bus::kTruth.name) return decoded(event, TruthRecord{});
-    if (event.channel == bus::kCloud.name) return decoded(event, CloudRecord{clouds_++, {}});
-    return std::nullopt;
+    if (event.channel != bus::kCloud.name) return std::nullopt;
+    auto record = decoded(event, CloudRecord{clouds_++, {}});
+    if (record) count_lost(std::get<CloudRecord>(*record));
+    return record;
+  }
+
+  // A gap in seq is clouds that the log lost: they have numbers, too.
+  void count_lost(CloudRecord& cloud) {
+    const std::int64_t seq = cloud.message.seq, gap = seq - last_seq_;
+    const std::int64_t number = last_number_ + gap;
+    if (last_seq_ >= 0 && gap > 0 && gap <= kMaxGap && number > cloud.number) {
+      cloud.number = number;
+      clouds_ = number + 1;
+    }
+    last_seq_ = seq;
+    last_number_ = cloud.number;
   }
 
   template <class R>
@@ -95,7 +116,9 @@ class LogRecording : public Recording {
   const std::filesystem::path path_;
   Omissions& omissions_;
   bus::EventLogReader log_;
+  ChannelCounts channels_;
   std::int64_t clouds_ = 0, damage_told_ = 0;
+  std::int64_t last_seq_ = -1, last_number_ = 0;
 };
 
 }  // namespace

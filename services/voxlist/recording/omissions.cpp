@@ -18,8 +18,10 @@ void Omissions::add(const std::string& reason, const std::string& detail) {
     console_.warn(fmt::format("more like this ({}) are only counted", reason));
 }
 
-void Omissions::remark(const std::string& text) {
-  if (told_.insert(text).second) console_.warn(text);
+void Omissions::remark(const std::string& kind, const std::string& text) {
+  if (remarks_[kind] >= kToldOfEach || !told_.insert(text).second) return;
+  console_.warn(text);
+  if (++remarks_[kind] == kToldOfEach) console_.warn("more like this is not told");
 }
 
 std::int64_t Omissions::total() const {

@@ -17,9 +17,10 @@ class Omissions {
   /// Something was left out because of `reason`; `detail` tells a person what and where.
   void add(const std::string& reason, const std::string& detail);
 
-  /// Something that is taken as it is, but that a person should know. Told once, however often it
-  /// comes; not counted.
-  void remark(const std::string& text);
+  /// Something that is taken as it is, but that a person should know; not counted. The same text is
+  /// told once, and of each `kind` only the first few.
+  void remark(const std::string& kind, const std::string& text);
+  void remark(const std::string& text) { remark(text, text); }
 
   std::int64_t total() const;
   bool empty() const { return counts_.empty(); }
@@ -30,6 +31,7 @@ class Omissions {
  private:
   Console& console_;
   std::map<std::string, std::int64_t> counts_;
+  std::map<std::string, std::int64_t> remarks_;
   std::set<std::string> told_;
 };
 

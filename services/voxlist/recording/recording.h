@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <variant>
 #include <voxlist/pointcloud_t.hpp>
 #include <voxlist/pose_t.hpp>
@@ -45,6 +46,10 @@ class Recording {
 
   /// How far it has come, 0..1.
   virtual double progress() const = 0;
+
+  /// What it holds beside scans, where it can say: "LASER (4500), MIRROR (4500)". Complete at the
+  /// end.
+  virtual std::string contents() const { return {}; }
 
   /// How the table's rows are found. `poses` must outlive the answer.
   virtual RowOfScan match(const io::PoseTable& poses) const = 0;

@@ -6,12 +6,17 @@
 
 #include "services/voxlist/output/stop.h"
 #include "voxlist/bus/convert.h"
+#include "voxlist/geometry/time_limit.h"
 #include "voxlist/io/files/file.h"
 
 namespace voxlist::desk {
 
-ScanInput::ScanInput(std::filesystem::path path, Console& console)
-    : path_(std::move(path)), omissions_(console), recording_(open_recording(path_, omissions_)) {}
+ScanInput::ScanInput(std::filesystem::path path, Console& console, const RangeLimits& limits)
+    : path_(std::move(path)),
+      omissions_(console),
+      recording_(open_recording(path_, omissions_)),
+      limits_(limits),
+      times_(path_, omissions_) {}
 
 std::optional<Scan> ScanInput::next() {
   while (!stop_requested()) {
@@ -20,22 +25,31 @@ std::optional<Scan> ScanInput::next() {
     auto scan = std::visit([this](auto& message) { return take(message); }, *record);
     if (scan) return scan;
   }
-  if (scans_ > 0) return std::nullopt;
-  throw io::FileError(path_, stop_requested()
-                                 ? "interrupted before the first scan, nothing was written"
-                                 : "has no scan that can be read, give a folder of scans or a log");
+  if (!stop_requested()) times_.check_at_end();
+  if (scans() == 0) refuse_all();
+  return std::nullopt;
+}
+
+void ScanInput::refuse_all() const {
+  if (stop_requested())
+    throw io::FileError(path_, "interrupted before the first scan, nothing was written");
+  const std::string contents = recording_->contents();
+  if (contents.empty() || !omissions_.empty())
+    throw io::FileError(path_, "has no scan that can be read, give a folder of scans or a log");
+  throw io::FileError(path_, fmt::format("has no {}; it holds {}", bus::kCloud.name, contents));
 }
 
 std::optional<Scan> ScanInput::take(CloudRecord& record) {
+  const std::int64_t utime_us = record.message.utime;
   bus::ReceivedCloud received = bus::from_message(record.message);
-  if (!received.cloud) {
+  if (!received.cloud && utime_us < kMaxUtime_us) {
     const std::string reason = "CLOUD/" + received.refusal;
     omissions_.add(reason, fmt::format("scan {}: {}", record.number, reason));
     return std::nullopt;
   }
-  last_us_ = received.cloud->utime_us;
-  if (scans_++ == 0) first_us_ = last_us_;
-  return Scan{record.number, std::move(*received.cloud), odometry_.at(last_us_)};
+  if (!times_.take(record.number, utime_us)) return std::nullopt;
+  remark_on_points(record.number, record.message, *received.cloud, limits_, omissions_);
+  return Scan{record.number, std::move(*received.cloud), odometry_.at(utime_us)};
 }
 
 std::optional<Scan> ScanInput::take(const OdometryRecord& record) {

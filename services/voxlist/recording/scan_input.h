@@ -6,6 +6,8 @@
 #include <optional>
 
 #include "services/voxlist/recording/recording.h"
+#include "services/voxlist/recording/scan_points.h"
+#include "services/voxlist/recording/scan_times.h"
 #include "voxlist/geometry/cloud.h"
 #include "voxlist/geometry/odometry_buffer.h"
 
@@ -24,11 +26,12 @@ struct Scan {
 /// The scans of a folder or a log, one by one, as the services get them over the bus.
 class ScanInput {
  public:
-  /// Throws FileError when the path is neither a folder of scans nor a log.
-  ScanInput(std::filesystem::path path, Console& console);
+  /// Throws FileError when the path is neither a folder of scans nor a log. Points outside the
+  /// limits are only told.
+  ScanInput(std::filesystem::path path, Console& console, const RangeLimits& limits = {});
 
   /// The next scan; nothing at the end, or after Ctrl-C. What cannot be read is left out. Throws
-  /// FileError when there was not one scan.
+  /// FileError when there was not one scan, or when the scans' times are in another unit.
   std::optional<Scan> next();
 
   /// How far it has come, 0..1.
@@ -41,10 +44,13 @@ class ScanInput {
   const Omissions& omissions() const { return omissions_; }
 
   /// Scans read so far, and the time from the first to the last.
-  std::int64_t scans() const { return scans_; }
-  double seconds() const { return static_cast<double>(last_us_ - first_us_) * 1e-6; }
+  std::int64_t scans() const { return times_.scans(); }
+  double seconds() const {
+    return static_cast<double>(times_.last_us() - times_.first_us()) * 1e-6;
+  }
 
  private:
+  [[noreturn]] void refuse_all() const;
   std::optional<Scan> take(CloudRecord& record);
   std::optional<Scan> take(const OdometryRecord& record);
   std::optional<Scan> take(const TruthRecord&) { return std::nullopt; }
@@ -52,9 +58,9 @@ class ScanInput {
   const std::filesystem::path path_;
   Omissions omissions_;
   const std::unique_ptr<Recording> recording_;
+  const RangeLimits limits_;
   OdometryBuffer odometry_;
-  std::int64_t scans_ = 0;
-  std::int64_t first_us_ = 0, last_us_ = 0;
+  ScanTimes times_;
 };
 
 }  // namespace voxlist::desk

@@ -8,6 +8,7 @@
 #include <voxlist/pose_t.hpp>
 
 #include "services/voxlist/output/progress.h"
+#include "services/voxlist/recording/channel_counts.h"
 #include "services/voxlist/recording/omissions.h"
 #include "voxlist/bus/convert.h"
 #include "voxlist/bus/event_log.h"
@@ -60,18 +61,21 @@ calibration::CalibrationInput read_scanner_log(const std::filesystem::path& path
                                                Console& console) {
   bus::EventLogReader log(path.string());
   Omissions omissions(console);
+  ChannelCounts channels;
   Progress progress(console, "reading");
   calibration::CalibrationInput input;
   while (input.lines.size() < kMostLines) {
     const auto event = log.next();
     if (!event) break;
+    channels.add(event->channel);
     take(*event, omissions, input);
     progress.show(static_cast<double>(log.position_bytes()) /
                   static_cast<double>(log.size_bytes()));
   }
   if (input.lines.empty()) {
-    throw io::FileError(path, std::string("has no ") + bus::kLaser.name +
-                                  ", record a minute with lcm-logger while the scanner runs");
+    throw io::FileError(path, fmt::format("has no {}; it holds {}. Record a minute while the "
+                                          "scanner runs",
+                                          bus::kLaser.name, channels.text()));
   }
   if (input.lines.size() == kMostLines) console.warn("the first ten minutes are enough");
   if (log.damaged_events() > 0) omissions.add("damaged events", path.string() + " is damaged");
