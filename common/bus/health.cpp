@@ -62,6 +62,10 @@ void Health::add_latency_us(std::int64_t latency_us) {
 
 std::optional<health_t> Health::due(std::int64_t now_us, const Counters& more) {
   if (last_us_ && now_us >= *last_us_ && now_us - *last_us_ < kPeriod_us) return std::nullopt;
+  return last(now_us, more);
+}
+
+health_t Health::last(std::int64_t now_us, const Counters& more) {
   last_us_ = now_us;
 
   health_t message{};

@@ -50,6 +50,9 @@ class Health {
   /// the latencies start anew then. `more` (a Bus's counters) is listed with its own counters.
   std::optional<health_t> due(std::int64_t now_us, const Counters& more = {});
 
+  /// The same at once: for the last one.
+  health_t last(std::int64_t now_us, const Counters& more = {});
+
  private:
   struct Condition {
     State state;

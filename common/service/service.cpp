@@ -80,6 +80,15 @@ void log_state(const bus::Health& health, StateLog& states, std::int64_t now_us)
   spdlog::log(level, "{}", line->text);
 }
 
+// What goes wrong at the end is told in HEALTH; whoever catches it writes it to the log.
+void stop(bus::Bus& bus, bus::Health& health, RunningService& service, std::int64_t now_us) try {
+  service.stop();
+} catch (const std::exception& error) {
+  health.raise("stop", bus::Health::State::kError, error.what());
+  bus.publish(bus::kHealth, health.last(now_us, bus.counters()));
+  throw;
+}
+
 // False: the bus ended before anyone asked for it.
 bool run_until_stopped(bus::Bus& bus, bus::Health& health, RunningService& service) {
   const Clock clock;
@@ -96,7 +105,7 @@ bool run_until_stopped(bus::Bus& bus, bus::Health& health, RunningService& servi
     log_troubles(bus, drops, told_error, now_us);
     log_state(health, states, now_us);
   }
-  service.stop();
+  stop(bus, health, service, clock.now_us());
   return open;
 }
 

@@ -33,7 +33,7 @@ class RunningService {
   /// A descriptor that calls for tick() at once when it can be read; -1 when there is none now.
   virtual int wake_fd() const = 0;
 
-  /// Called once before a wanted end.
+  /// Called once before a wanted end. What it throws is told in HEALTH and makes the exit code 1.
   virtual void stop() = 0;
 };
 

@@ -285,9 +285,6 @@ void MapperService::stop() {
   if (!store_) return;
   save();
   if (stored_ == builder_.keyframes().size() && !views_failed_) return;
-  // The loop sends no HEALTH any more.
-  if (const auto message = health_.due(now_us_ + kSecond_us, bus_.counters()))
-    bus_.publish(bus::kHealth, *message);
   throw std::runtime_error("the last save failed: " + health_.message());
 }
 

@@ -4,6 +4,7 @@
 
 #include <exception>
 #include <filesystem>
+#include <stdexcept>
 #include <utility>
 #include <voxlist/keyframe_t.hpp>
 #include <voxlist/map_octree_t.hpp>
@@ -11,6 +12,7 @@
 
 #include "voxlist/bus/bus.h"
 #include "voxlist/bus/health.h"
+#include "voxlist/io/files/atomic_file.h"
 #include "voxlist/system/state_folder.h"
 
 namespace voxlist::services {
@@ -33,6 +35,7 @@ OctomapExportService::OctomapExportService(bus::Bus& bus, bus::Health& health,
       config_(config),
       folder_(in_state_folder(config.folder)),
       builder_(config.octomap) {
+  if (!folder_.empty()) io::remove_stale_temporaries(folder_);
   bus_.subscribe(bus::kKeyframe, [this](const keyframe_t& m) { take(m); });
 }
 
@@ -61,7 +64,9 @@ void OctomapExportService::tick(std::int64_t now_us) {
 }
 
 void OctomapExportService::stop() {
-  if (saving_.changed) save(0);
+  if (!saving_.changed) return;
+  save(0);
+  if (!save_error_.empty()) throw std::runtime_error("the last save failed: " + save_error_);
 }
 
 void OctomapExportService::insert(const bus::PosedCloud& keyframe) {

@@ -42,7 +42,7 @@ class OctomapExportService {
   /// Inserts one keyframe at most, asks for what is missing, and publishes and saves what is due.
   void tick(std::int64_t now_us);
 
-  /// Saves what has changed since it was last saved.
+  /// Saves what has changed since it was last saved. Throws std::runtime_error when that fails.
   void stop();
 
  private:

@@ -18,6 +18,14 @@ TEST(Health, IsDueOnceASecond) {
   EXPECT_TRUE(health.due(3)) << "the clock was set back";
 }
 
+TEST(Health, HasALastMessageWhateverIsDue) {
+  Health health("mapper");
+  ASSERT_TRUE(health.due(1'000'000));
+  health.raise("stop", Health::State::kError, "no room");
+  EXPECT_FALSE(health.due(1'000'001));
+  EXPECT_EQ(health.last(1'000'001).message, "no room");
+}
+
 TEST(Health, TellsStateMessageAndCounters) {
   Health health("mapper");
   health.raise("clouds", Health::State::kWarning, "no clouds");

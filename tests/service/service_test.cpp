@@ -9,6 +9,7 @@
 
 #include "tests/service/run_folder_fixture.h"
 #include "voxlist/bus/bus.h"
+#include "voxlist/bus/health.h"
 #include "voxlist/pose_t.hpp"
 #include "voxlist/service/instance_lock.h"
 #include "voxlist/system/file_lock.h"
@@ -58,6 +59,21 @@ class CounterService {
 };
 CounterService::Seen CounterService::seen;
 
+// As a service whose last save fails.
+class FailsAtItsEnd : public CounterService {
+ public:
+  FailsAtItsEnd(bus::Bus& bus, bus::Health& health, const CounterConfig& config)
+      : CounterService(bus, health, config), health_(health) {}
+  ~FailsAtItsEnd() { told = health_.message(); }
+  void stop() { throw std::runtime_error("/map: no room for the last keyframe"); }
+
+  static std::string told;
+
+ private:
+  bus::Health& health_;
+};
+std::string FailsAtItsEnd::told;
+
 class BrokenService {
  public:
   BrokenService(bus::Bus&, bus::Health&, const CounterConfig&) {
@@ -97,6 +113,12 @@ TEST_F(RunService, HandlesMessagesTicksAndStopsOnSigterm) {
   EXPECT_TRUE(CounterService::seen.clock_never_went_back);
   EXPECT_TRUE(CounterService::seen.stopped);
   EXPECT_THAT(out_, IsEmpty());
+}
+
+TEST_F(RunService, TellsWhatWentWrongAtItsEndInHealthLogAndExitCode) {
+  EXPECT_EQ(run<FailsAtItsEnd>({"--lcm-url", "memq://"}), 1);
+  EXPECT_EQ(FailsAtItsEnd::told, "/map: no room for the last keyframe");
+  EXPECT_THAT(err_, HasSubstr("mapper: /map: no room for the last keyframe\n"));
 }
 
 TEST_F(RunService, TakesItsSettingsFromTheFile) {

@@ -334,6 +334,7 @@ TEST_F(OctomapExport, KeepsRunningWhenTheDiskIsFull) {
   {
     const FullDisk full;
     run(15.0);
+    EXPECT_THROW(service_->stop(), std::runtime_error);
   }
   health_t told = health();
   EXPECT_EQ(told.state, health_t::STATE_ERROR);
