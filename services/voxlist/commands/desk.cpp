@@ -71,6 +71,8 @@ int run_desk(std::vector<std::string> arguments, Console& console) {
   add_map(program, chosen);
   add_localise(program, chosen);
   add_evaluate(program, chosen);
+  add_info(program, chosen);
+  add_export(program, chosen);
   add_simulate(program, chosen);
 #ifdef VOXLIST_CALIBRATION
   add_calibrate(program, chosen);

@@ -12,6 +12,7 @@
 #include "services/voxlist/output/stop.h"
 #include "services/voxlist/recording/given_poses.h"
 #include "voxlist/io/files/file.h"
+#include "voxlist/mapping/map_store.h"
 
 namespace voxlist::desk {
 namespace {
@@ -22,6 +23,8 @@ struct MapOptions {
   std::filesystem::path poses;
   std::filesystem::path config;
   double octomap_resolution_m = 0.0;
+  bool no_octomap = false;
+  bool force = false;
   int threads = 0;
 };
 
@@ -89,6 +92,16 @@ void tell(const MapOptions& options, const MapRun& run, const RunFigures& figure
   console.say((options.folder / "map.png").string());
 }
 
+// A map that the mapper made has no summary. It may be the only one of its place.
+void refuse_robots_map(const std::filesystem::path& folder) {
+  if (!std::filesystem::exists(folder / mapping::kKeyframeFile) ||
+      std::filesystem::exists(folder / "summary.json"))
+    return;
+  throw io::FileError(folder,
+                      "holds a map that a robot made: give another folder, or --force to "
+                      "replace it");
+}
+
 // Scans that were placed, and still nothing to see.
 bool tell_if_empty(const MapRun& run, Console& console) {
   if (run.trajectory().empty() || !run.builder().map().empty()) return false;
@@ -104,15 +117,19 @@ int map(const MapOptions& options, Console& console) {
 
   ScanInput input(options.input, console,
                   {settings.mapper.min_range_m, settings.mapper.max_range_m});
+  if (!options.force) refuse_robots_map(options.folder);
   MapFiles files(options.folder);
   MapRun run(settings.localiser, settings.mapper);
   const RunFigures figures = make_map(options, input, run, console);
   files.write_map(run);
-  const bool has_octomap = files.write_octomap(run.builder(), settings.octomap, console);
-  files.write_summary(run, figures);
   tell(options, run, figures, console);
   if (figures.interrupted) console.warn("interrupted: the map ends there");
-  if (!has_octomap) console.warn("interrupted: there is no map.bt");
+  if (options.no_octomap) {
+    files.remove_octomap();
+  } else if (!files.write_octomap(run.builder(), settings.octomap, console)) {
+    console.warn("interrupted: there is no map.bt");
+  }
+  files.write_summary(run, figures);
   return tell_if_empty(run, console) ? 1 : 0;
 }
 
@@ -130,6 +147,8 @@ void add_options(CLI::App& command, MapOptions& options) {
       .add_option("--octomap-resolution", options.octomap_resolution_m,
                   "edge of map.bt's voxels in metres; default 0.1")
       ->check(CLI::Range(0.01, 10.0));
+  command.add_flag("--no-octomap", options.no_octomap, "make no map.bt, which is the slow part");
+  command.add_flag("--force", options.force, "replace the folder's map also if a robot made it");
   command.add_option("--threads", options.threads, "most threads; the map does not depend on it")
       ->check(CLI::Range(1, 1024));
 }

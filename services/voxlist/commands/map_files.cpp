@@ -72,14 +72,17 @@ bool MapFiles::write_octomap(const mapping::MapBuilder& builder,
     octomap.insert(keyframes[i].T_map_base, keyframes[i].cloud, stop_requested);
     progress.show(static_cast<double>(i + 1) / static_cast<double>(keyframes.size()));
   }
-  const fs::path file = folder_ / "map.bt";
-  std::error_code ignored;
   if (stop_requested()) {
-    fs::remove(file, ignored);
+    remove_octomap();
     return false;
   }
-  octomap.write_bt(file);
+  octomap.write_bt(folder_ / "map.bt");
   return true;
+}
+
+void MapFiles::remove_octomap() const {
+  std::error_code ignored;
+  fs::remove(folder_ / "map.bt", ignored);
 }
 
 void MapFiles::write_summary(const MapRun& run, const RunFigures& figures) {

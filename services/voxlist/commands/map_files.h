@@ -37,6 +37,9 @@ class MapFiles {
   bool write_octomap(const mapping::MapBuilder& builder, const planning::OctomapConfig& config,
                      Console& console) const;
 
+  /// Takes away the OctoMap of another map.
+  void remove_octomap() const;
+
   /// Writes the summary: the folder is whole.
   void write_summary(const MapRun& run, const RunFigures& figures);
 

@@ -1,0 +1,78 @@
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "services/voxlist/commands/command.h"
+#include "services/voxlist/output/console.h"
+#include "services/voxlist/output/stop.h"
+#include "voxlist/io/clouds/cloud_file.h"
+#include "voxlist/io/files/atomic_file.h"
+#include "voxlist/io/files/file.h"
+#include "voxlist/mapping/keyframe_reader.h"
+#include "voxlist/mapping/map_store.h"
+
+namespace voxlist::desk {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ExportOptions {
+  fs::path map;
+  fs::path folder;
+};
+
+void make_empty_folder(const fs::path& folder) {
+  std::error_code failure;
+  fs::create_directories(folder, failure);
+  if (failure || !fs::is_directory(folder, failure))
+    throw io::FileError(folder, "cannot be made a folder, check the name and its permissions");
+  if (!fs::is_empty(folder, failure))
+    throw io::FileError(folder, "is not empty, give a new folder for the scans");
+}
+
+std::string row(std::size_t index, const mapping::Keyframe& keyframe) {
+  const Eigen::Vector3d p = keyframe.T_map_base.translation();
+  const Eigen::Quaterniond q(keyframe.T_map_base.linear());
+  return fmt::format("{},{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}\n", index,
+                     keyframe.cloud.utime_us, p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w());
+}
+
+int export_map(const ExportOptions& options, Console& console) {
+  mapping::KeyframeReader reader(options.map / mapping::kKeyframeFile);
+  make_empty_folder(options.folder);
+  std::string table = "index,utime,x_m,y_m,z_m,qx,qy,qz,qw\n";
+  std::size_t scans = 0;
+  while (!stop_requested()) {
+    const auto keyframe = reader.next();
+    if (!keyframe) break;
+    io::write_ply(options.folder / fmt::format("scan_{:04}.ply", scans), keyframe->cloud);
+    table += row(scans++, *keyframe);
+  }
+  io::write_file_atomically(options.folder / "poses.csv", table);
+  if (!reader.warning().empty()) console.warn(reader.warning());
+  console.say(fmt::format("{}: {} scans with their poses", options.folder.string(), scans));
+  return 0;
+}
+
+}  // namespace
+
+void add_export(CLI::App& program, Command& chosen) {
+  CLI::App* command = program.add_subcommand(
+      "export",
+      "Writes a map's keyframes as a folder of scans with poses.csv, for other programs.");
+  const auto options = std::make_shared<ExportOptions>();
+  command->add_option("MAPDIR", options->map, "map folder, as voxlist map or the mapper made it")
+      ->required();
+  command->add_option("-o,--output", options->folder, "folder to make, scan_0000.ply and so on")
+      ->required();
+  command->footer(
+      "Example:\n"
+      "  voxlist export hall_map -o hall_scans && \\\n"
+      "    voxlist map hall_scans -o again --use-poses hall_scans/poses.csv");
+  command->callback([options, &chosen] {
+    chosen = [options](Console& console) { return export_map(*options, console); };
+  });
+}
+
+}  // namespace voxlist::desk
