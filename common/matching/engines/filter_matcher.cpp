@@ -20,14 +20,14 @@ constexpr std::size_t kMostModes = 8;
 // is taken for granted, and nowhere proven.
 constexpr double kUnseen = kModeRatio;
 
-// How often the finest voxel of the filter is halved to come to the map's: 2^6 x 0.02 m is 1.28 m,
+// The filter ends at voxels of the map's edge, doubled at most this often: 2^6 x 0.02 m is 1.28 m,
 // the paper's coarsest level.
-constexpr int kMostHalvings = 6;
+constexpr int kMostDoublings = 6;
 
 int final_factor(const VoxelMap& map, const MatcherConfig& config) {
   const double factor = config.resolution_m / map.resolution_m();
   return 1 << std::clamp(static_cast<int>(std::lround(elementary::log(factor) / std::numbers::ln2)),
-                         0, kMostHalvings);
+                         0, kMostDoublings);
 }
 
 std::int64_t poses_examined(const ParticleFilterResult& found) {

@@ -8,31 +8,56 @@
 namespace voxlist::matching {
 namespace {
 
-// Lost below this overlap ratio, or below this share of the last inlier ratio.
-constexpr double kLeastOverlapRatio = 0.15, kLeastShare = 0.4;
+// A track is lost below this overlap ratio of the search in its window: the scan is of another
+// place, or nearly blind. Chosen by judgement. Lower: a pose that explains nothing goes on.
+constexpr double kLeastOverlapRatio = 0.15;
+// A track is lost when the inlier ratio falls below this share of the last scan's. Chosen by
+// judgement; the same.
+constexpr double kLeastShare = 0.4;
 // The window grows to all that motion allows when the inlier ratio falls below this share of the
-// last one.
+// last scan's. Never (0): 15 of the 89 scans of a hall without odometry are placed. Higher: two
+// searches where one would do.
 constexpr double kDoubtfulShare = 0.8;
-// Support that falls so far below its running mean makes a pose doubtful, or lost.
+
+// A pose is doubtful when its support falls so far below the running mean, and lost when it falls
+// farther. Doubt costs a search of the whole map, 20 to 40 ms, and ends the track only when another
+// pose is better (localiser.cpp); it was lowered from 0.08, with which a robot that was carried
+// into a place alike went on tracking. Lower: more searches; higher: a robot that was carried away
+// is not noticed.
 constexpr double kDoubtfulDrop = 0.06, kLostDrop = 0.35;
+// Share of the running mean that a new scan leaves in place: it is the mean of about the last
+// three. Higher: the mean of a good place casts doubt on a poorer one for longer.
 constexpr double kSupportMemory = 0.7;
-// Support means something where the map knows this share of the rays' ends.
+// Support means something where the map knows this share of the rays' ends, as occupied or free.
+// Chosen by judgement. Higher: nothing casts doubt at the edge of a map; lower: a few rays do.
 constexpr double kKnownShare = 0.3;
 
-// How far a prediction may be off, beside a share of the motion itself.
+// How far a prediction may be off (m, rad), beside a share of the motion itself: what the speed of
+// a robot changes from scan to scan without odometry. Smaller: the pose lies outside, and takes a
+// second search in the wide window (0.1 m and 0.05 rad still place all 89 scans of the hall);
+// larger: time grows with the window's area.
 constexpr double kWindow_m = 0.4, kWindow_rad = 0.3;
 constexpr double kWindowShare = 0.2;
-// Steps in time count as at least and at most this long (s).
+// Steps in time count as at least and at most this long (s) when all that motion allows is worked
+// out: two clouds may come together, and after a long gap the window would be the whole floor.
 constexpr double kShortestStep_s = 0.1, kLongestStep_s = 3.0;
 
 // A heavy-tailed prior on the distance from the prediction: decides between poses that fit alike.
-// Odometry is worth more than a guess from the last step, the less the farther the robot went.
+// Its weight is an inlier ratio, of which 0.7 times is taken off a pose one scale (m, rad) away,
+// and 2.3 times one three scales away. Odometry is worth more than a guess from the last step, the
+// less the farther the robot went. With a guess's weight of 0 all 89 scans of the hall are placed
+// as they are, with 0.5 only 16: a wrong guess outweighs the scan. Lighter: a robot among alike
+// shelves may jump between them.
 struct Prior {
   double weight, scale_m, scale_rad;
 };
 constexpr Prior kGuess{0.08, 0.5, 0.5}, kOdometry{0.2, 0.1, 0.1};
+// Odometry's scale grows by this share of the way (m) since the last scan: wheels that slip are off
+// by a tenth of it.
 constexpr double kOdometryShare = 0.1;
-// The most that it takes to believe an unlikely motion: wheels slip.
+// The most support that it takes to believe an unlikely motion: wheels slip. Above kDoubtfulDrop,
+// so that a motion which odometry denies casts doubt by itself; a carried robot had gone on
+// tracking without that. Higher: poses that a slip explains are called lost elsewhere.
 constexpr double kMostSurprise = 0.1;
 
 double best_inlier_ratio(const Match& match) {

@@ -14,19 +14,21 @@ namespace {
 // their area out to 8 m, where a mirror scanner's points are 0.2 m apart.
 constexpr std::size_t kNearLevel = 0, kRefineLevel = 1, kEvenLevel = 2;
 
-// Most rays that weigh a pose when a robot is lost; about 1 ms a pose. The coefficients of
-// confidence.cpp were fitted with these, and with the two levels above: fit again after a change.
+// Most rays that weigh a pose when a robot is lost; 0.8 ms a pose (floor_16_13). The coefficients
+// of confidence.cpp were fitted with these, and with the two levels above: fit again after a
+// change.
 constexpr std::size_t kMostRays = 3000;
 
-// Rays that weigh one of many candidates, or a tracked pose: 0.2 ms.
+// Most rays that weigh one of many candidates, or a tracked pose: 0.2 ms a pose (floor_16_13). Time
+// grows with it; other numbers were not compared.
 constexpr std::size_t kFewRays = 600;
 
-// Points that are counted in a window and refine a first time: more tell poses no better apart, a
-// lattice of 0.08 m is too coarse for that.
+// Most points that are counted in a window and refine a first time. The lattice of 0.08 m is too
+// coarse for more to tell poses apart; time grows with them.
 constexpr std::size_t kFewPoints = 400;
 
 // A layer of points keeps at most this multiple of the median layer's: floors that are not quite
-// flat would else outvote walls.
+// flat would else outvote walls. Chosen by judgement, as is the next.
 constexpr double kMostOfUsual = 1.5;
 
 // With a smaller share of the scan outside of flat surfaces, all points take part: fewer tell
@@ -34,7 +36,8 @@ constexpr double kMostOfUsual = 1.5;
 constexpr double kLeastUpright = 0.05;
 
 // A search counts the points of the widest cubes of which at least so many hold one, up to 0.4 m
-// (kFinestCube_m doubled three times): fewer points tell poses apart too seldom.
+// (kFinestCube_m doubled three times). Chosen by judgement: fewer points leave more wrong poses
+// that overlap as much, wider cubes are wider than furniture.
 constexpr std::size_t kEnoughToSearch = 300;
 constexpr int kMostDoublings = 3;
 

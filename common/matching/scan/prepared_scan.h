@@ -66,7 +66,7 @@ class PreparedScan {
   /// Rays spread evenly over all surfaces in sight.
   const std::vector<ScanRay>& even_rays() const;
 
-  /// Some of even_rays(), for what is asked at many poses or of every scan.
+  /// Fewer rays, spread in the same way: for what is asked at many poses, or of every scan.
   const std::vector<ScanRay>& few_rays() const;
 
  private:

@@ -7,9 +7,10 @@
 
 namespace voxlist::matching {
 
-/// Most nodes that a search expands, unless it is told otherwise: about 0.5 s of one thread. In a
-/// changed floor of 200 x 150 m, 65 % of searches end there, on floors of 60 x 40 m nearly none.
-/// Fewer: faster in foreign buildings, and more searches without a certificate.
+/// Most nodes that a search expands, unless it is told otherwise: 0.2 to 1 s of one thread. In a
+/// changed floor of 200 x 150 m, 65 % of searches end there; on floors of 60 x 40 m none of 120,
+/// but 12 of 60 for scans of another building (bench_global 60x40 30, seeds 1 and 4). Fewer: faster
+/// where a scan is foreign, and more searches without a certificate.
 inline constexpr int kMostNodes = 100'000;
 
 /// What is asked of a search for the poses of a lattice that overlap a map most.
