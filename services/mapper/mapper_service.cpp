@@ -45,6 +45,10 @@ constexpr std::int64_t kSecond_us = 1'000'000;
 // gone is told within a second.
 constexpr std::int64_t kLookPeriod_us = kSecond_us / 2;
 
+// Keyframes that are written at once, of those that wait for a disk that works again: each takes it
+// 5 ms, and nothing else is done meanwhile.
+constexpr std::size_t kStoredAtOnce = 50;
+
 // Silence after which another mapper is gone; its HEALTH comes once a second.
 constexpr std::int64_t kRivalGone_us = 3 * kSecond_us;
 
@@ -132,7 +136,7 @@ void MapperService::add(std::int64_t utime_us, const Pose2& pose) {
   builder_.add({to_pose3(pose), std::move(*cloud)});
   recent_clouds_.erase(recent_clouds_.begin(), cloud + 1);
   health_.count("keyframes");
-  store_keyframes();
+  store_keyframes(kStoredAtOnce);
   send_keyframes(builder_.keyframes().size() - 1);
 }
 
@@ -229,7 +233,7 @@ void MapperService::look_after_folder() {
   if (!store_->is_in_place()) {
     move_to_fresh_folder();
   } else if (stored_ < builder_.keyframes().size()) {
-    store_keyframes();
+    store_keyframes(kStoredAtOnce);
   }
 }
 
@@ -251,12 +255,13 @@ void MapperService::move_to_fresh_folder() try {
                      error.what());
 }
 
-void MapperService::store_keyframes() {
+void MapperService::store_keyframes(std::size_t at_most) {
   if (!store_) return;
+  const auto& keyframes = builder_.keyframes();
+  const std::size_t end = std::min(keyframes.size(), stored_ + at_most);
   try {
-    for (; stored_ < builder_.keyframes().size(); ++stored_)
-      store_->append(builder_.keyframes()[stored_]);
-    health_.clear("keyframes");
+    for (; stored_ < end; ++stored_) store_->append(keyframes[stored_]);
+    if (stored_ == keyframes.size()) health_.clear("keyframes");
   } catch (const io::FileError& error) {
     fail("keyframes", error.what());
   }
@@ -284,6 +289,7 @@ void MapperService::fail(const std::string& what, const std::string& sentence) {
 void MapperService::stop() {
   if (!store_) return;
   save();
+  store_keyframes(builder_.keyframes().size());
   if (stored_ == builder_.keyframes().size() && !views_failed_) return;
   throw std::runtime_error("the last save failed: " + health_.message());
 }

@@ -77,7 +77,7 @@ class MapperService {
   void resend_keyframes(std::size_t first);
   void look_after_folder();
   void move_to_fresh_folder();
-  void store_keyframes();
+  void store_keyframes(std::size_t at_most);
   void save();
   void fail(const std::string& what, const std::string& sentence);
   std::int64_t version() const { return static_cast<std::int64_t>(builder_.keyframes().size()); }

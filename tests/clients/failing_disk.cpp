@@ -1,6 +1,7 @@
-// A disk that fails, for a program that is started with this library in LD_PRELOAD: while the file
-// that FAILING_DISK names is there, many writes to a keyframe file go wrong, each in one of
-// the ways that disks have. FAILING_DISK_SEED starts their order.
+// A disk that fails, for a program that is started with this library in LD_PRELOAD, while the file
+// that FAILING_DISK names is there. With FAILING_DISK_SEED many writes to a keyframe file go wrong,
+// each in one of the ways that disks have, in an order that follows from the seed; without it the
+// disk is full.
 #include <dlfcn.h>
 #include <unistd.h>
 
@@ -23,7 +24,7 @@ bool fails_now(int file) {
 
 unsigned draw(unsigned from) {
   const char* seed = std::getenv("FAILING_DISK_SEED");
-  static std::mt19937 random(seed != nullptr ? static_cast<unsigned>(std::atoi(seed)) : 1U);
+  static std::mt19937 random(seed != nullptr ? static_cast<unsigned>(std::atoi(seed)) : 0U);
   return static_cast<unsigned>(random() % from);
 }
 
@@ -44,6 +45,7 @@ Function* next(const char* name) {
 extern "C" ssize_t write(int file, const void* bytes, size_t count) {
   static auto* const real = next<ssize_t(int, const void*, size_t)>("write");
   if (!fails_now(file)) return real(file, bytes, count);
+  if (std::getenv("FAILING_DISK_SEED") == nullptr) return failed(ENOSPC);
   switch (draw(6)) {
     case 0:
       return failed(ENOSPC);

@@ -16,6 +16,7 @@
 #include "voxlist/io/clouds/cloud_file.h"
 #include "voxlist/io/poses/trajectory.h"
 #include "voxlist/mapping/map_store.h"
+#include "voxlist/system/file_lock.h"
 
 namespace voxlist::desk {
 namespace {
@@ -56,6 +57,15 @@ TEST_F(Map, PlacesEveryScanOfASimulatedDriveNearItsTruth) {
   ASSERT_TRUE(errors);
   EXPECT_EQ(errors->matched, static_cast<std::size_t>(test::kScans));
   EXPECT_LT(errors->aligned_m.rmse, 0.05);
+}
+
+TEST_F(Map, LeavesAFolderAloneInWhichAMapperWorks) {
+  std::filesystem::create_directories(folder_);
+  const auto mapper = FileLock::take(std::filesystem::path(folder_) / mapping::kMapLock);
+  const test::DeskRun run = map(scans_, folder_);
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.err, HasSubstr("works in this map folder"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ + "/" + mapping::kKeyframeFile));
 }
 
 TEST_F(Map, TellsTheSameInTheSummaryAsInTheFiles) {
