@@ -145,6 +145,19 @@ TEST_F(Map, TakesThePosesOfItsOwnTrajectoryAndTellsWhichRowHasNoScan) {
   }
 }
 
+TEST_F(Map, GivesScansWithoutTimesThoseOfTheirRows) {
+  fs::remove(scans_ + "/poses.csv");
+  fs::remove(scans_ + "/odometry.csv");
+  for (int i = 4; i < test::kScans; ++i) fs::remove(scans_ + "/scan_" + std::to_string(i) + ".ply");
+  fs::remove(scans_ + "/scan_1.ply");
+  test::write_text(work_ / "given.csv", "index,x,y,yaw\n0,0,0,0\n1,1,0,0\n2,2,0,0\n3,3,0,0\n");
+  ASSERT_EQ(map(scans_, folder_, {"--use-poses", work_ / "given.csv"}).exit_code, 0);
+  const auto trajectory = io::read_tum(folder_ + "/trajectory.tum");
+  ASSERT_EQ(trajectory.size(), 3u);
+  EXPECT_EQ(trajectory[1].utime_us, 2'000'000);
+  EXPECT_EQ(trajectory[1].pose.translation().x(), 2.0);
+}
+
 TEST_F(Map, TakesTheOffsetOffPosesFarFromTheOriginAndTells) {
   test::write_text(work_ / "utm.csv",
                    "index,x,y,z,yaw\n0,458074.6,5429380.2,2,0\n1,458075.0,5429380.2,2,0\n");

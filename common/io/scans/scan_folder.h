@@ -32,6 +32,9 @@ class ScanFolder {
   const std::filesystem::path& file(std::size_t scan) const { return files_[scan]; }
   std::int64_t utime_us(std::size_t scan) const { return utimes_us_[scan]; }
 
+  /// Whether poses.csv gives the times; else the scans come once a second.
+  bool has_times() const { return poses_ && poses_->has_times; }
+
   /// Reads a scan and sets its time. Throws FileError.
   Cloud read(std::size_t scan) const;
 

@@ -42,7 +42,8 @@ std::int64_t place_all(const std::filesystem::path& table, const GivenPoses& pos
   std::int64_t unknown = 0;
   while (auto scan = input.next()) {
     if (const auto pose = poses.of(*scan)) {
-      run.place(std::move(*scan), *pose);
+      scan->cloud.utime_us = pose->utime_us;
+      run.place(std::move(*scan), pose->pose);
     } else {
       ++unknown;
     }

@@ -35,6 +35,8 @@ class FolderRecording : public Recording {
     return static_cast<double>(next_) / static_cast<double>(events_.size());
   }
 
+  bool has_times() const override { return folder_.has_times(); }
+
   RowOfScan match(const io::PoseTable& poses) const override {
     const io::RowMatch match = folder_.match(poses);
     tell(match.notes);

@@ -34,7 +34,10 @@ void check_reach(const std::filesystem::path& path, const io::PoseTable& table) 
 }  // namespace
 
 GivenPoses::GivenPoses(const std::filesystem::path& path, const ScanInput& input, Console& console)
-    : table_(io::read_poses(path)), row_of_(input.match(table_)), offset_m_(offset_of(table_)) {
+    : table_(io::read_poses(path)),
+      row_of_(input.match(table_)),
+      has_times_(input.has_times()),
+      offset_m_(offset_of(table_)) {
   if (!offset_m_.isZero()) {
     console.warn(fmt::format(
         "{}: the poses lie {:.0f} km from the origin, as in UTM: an offset of "

@@ -22,10 +22,13 @@ class GivenPoses {
   GivenPoses(const GivenPoses&) = delete;
   GivenPoses& operator=(const GivenPoses&) = delete;
 
-  /// T_map_base of the scan; nothing when the table does not have it.
-  std::optional<Pose3> of(const Scan& scan) const {
+  /// T_map_base of the scan and its time, which is the table's where the input knows none; nothing
+  /// when the table does not have the scan.
+  std::optional<StampedPose3> of(const Scan& scan) const {
     const auto row = row_of_(scan.number, scan.cloud.utime_us);
-    return row ? std::optional(table_.rows[*row].pose) : std::nullopt;
+    if (!row) return std::nullopt;
+    const io::PoseRow& found = table_.rows[*row];
+    return StampedPose3{has_times_ ? scan.cloud.utime_us : found.utime_us, found.pose};
   }
 
   /// What was taken off each position (m); zero of poses near the origin.
@@ -34,6 +37,7 @@ class GivenPoses {
  private:
   io::PoseTable table_;
   const RowOfScan row_of_;
+  const bool has_times_;
   Eigen::Vector3d offset_m_ = Eigen::Vector3d::Zero();
 };
 

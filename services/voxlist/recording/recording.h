@@ -47,6 +47,9 @@ class Recording {
   /// How far it has come, 0..1.
   virtual double progress() const = 0;
 
+  /// Whether it knows when its scans were taken.
+  virtual bool has_times() const { return true; }
+
   /// What it holds beside scans, where it can say: "LASER (4500), MIRROR (4500)". Complete at the
   /// end.
   virtual std::string contents() const { return {}; }

@@ -37,6 +37,9 @@ class ScanInput {
   /// How far it has come, 0..1.
   double progress() const { return recording_->progress(); }
 
+  /// Whether the scans' times are known; else they come once a second.
+  bool has_times() const { return recording_->has_times(); }
+
   /// How the rows of a pose table are found, which must outlive the answer.
   RowOfScan match(const io::PoseTable& poses) const { return recording_->match(poses); }
 
