@@ -6,6 +6,7 @@
 #include <cctype>
 #include <map>
 #include <optional>
+#include <regex>
 #include <stdexcept>
 #include <string_view>
 
@@ -20,6 +21,9 @@ namespace {
 constexpr int kEveryCapacity = 512;
 constexpr int kLatestCapacity = 64;
 
+// Leaves 24 of the 63 letters of a channel's name for the longest channel.
+constexpr std::size_t kMaxPrefix = 39;
+
 constexpr std::string_view kFileScheme = "file://";
 
 bool is_plain(const std::string& channel) {
@@ -27,6 +31,19 @@ bool is_plain(const std::string& channel) {
     return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-' || c == '/';
   };
   return std::ranges::all_of(channel, allowed);
+}
+
+// udpm://GROUP:PORT with options behind; LCM takes what is left out from its own defaults.
+bool is_multicast_url(const std::string& url) {
+  static const std::regex form(
+      R"(udpm://((\d{1,3})\.\d{1,3}\.\d{1,3}\.\d{1,3}(:(\d{1,5}))?)?(\?[a-z_]+=\w+(&[a-z_]+=\w+)*)?)");
+  std::smatch parts;
+  if (!std::regex_match(url, parts, form)) return false;
+  const auto number = [&](std::size_t i, int other) {
+    return parts[i].matched ? std::stoi(parts[i]) : other;
+  };
+  const int group = number(2, 239), port = number(4, 1);
+  return group >= 224 && group <= 239 && port >= 1 && port <= 65535;
 }
 
 std::string log_path(const std::string& url) {
@@ -121,11 +138,22 @@ struct Bus::Impl {
 
 bool is_recording(const std::string& url) { return url.starts_with(kFileScheme); }
 
+std::string why_invalid(const BusOptions& options) {
+  if (!is_plain(options.prefix) || options.prefix.size() > kMaxPrefix)
+    return fmt::format("channel prefix '{}' may only hold letters, digits, _ - and /, {} at most",
+                       options.prefix, kMaxPrefix);
+  if (is_recording(options.url) || options.url.starts_with("memq://")) return {};
+  if (is_multicast_url(options.url)) return {};
+  return fmt::format(
+      "url '{}' cannot be opened: use udpm://GROUP:PORT?ttl=N (GROUP 224.0.0.0 to "
+      "239.255.255.255), memq:// or "
+      "file://PATH",
+      options.url);
+}
+
 Bus::Bus(const BusOptions& options) : impl_(std::make_unique<Impl>()) {
-  if (!is_plain(options.prefix)) {
-    throw std::runtime_error(fmt::format(
-        "bus: channel prefix '{}' may only hold letters, digits, _ - and /", options.prefix));
-  }
+  if (const std::string wrong = why_invalid(options); !wrong.empty())
+    throw std::runtime_error("bus: " + wrong);
   impl_->prefix = options.prefix;
   impl_->transport = is_recording(options.url) ? open_log(log_path(options.url))
                                                : open_lcm(options, impl_->warnings);

@@ -28,6 +28,10 @@ struct BusOptions {
   int receive_buffer_bytes = 8'000'000;
 };
 
+/// Why no Bus can be made of the options, whatever the machine: a prefix or url that makes no
+/// sense. Empty when one can.
+std::string why_invalid(const BusOptions& options);
+
 /// Whether a url names a recording, which ends, and not a network.
 bool is_recording(const std::string& url);
 

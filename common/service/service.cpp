@@ -122,9 +122,9 @@ FileLock take_lock(const ServiceInfo& info, const bus::BusOptions& options) {
 }  // namespace
 
 int run_service(int argc, char** argv, const ServiceInfo& info, const config::Section& settings,
-                const MakeService& make) try {
+                const CheckSettings& check, const MakeService& make) try {
   bus::BusOptions options;
-  const auto exit_code = read_command_line(argc, argv, info, settings, options);
+  const auto exit_code = read_command_line(argc, argv, info, settings, check, options);
   if (exit_code) return *exit_code;
 
   watch_signals();

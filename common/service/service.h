@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <stdexcept>
 #include <string>
 
 #include "voxlist/config/config.h"
@@ -39,15 +40,30 @@ class RunningService {
 
 using MakeService = std::function<std::unique_ptr<RunningService>(bus::Bus&, bus::Health&)>;
 
-/// Reads the command line and the settings, takes the service's lock, connects, makes the service,
-/// and runs it until SIGTERM or SIGINT, or until a recording that is its bus has ended. HEALTH goes
-/// out once a second. Returns the exit code: 0 after a wanted end, 1 with one line on stderr when
-/// it cannot start or the service throws.
+/// Says why settings of the service do not fit together; empty when they do. It opens nothing.
+using CheckSettings = std::function<std::string()>;
+
+/// Reads the command line and the settings, checks them, takes the service's lock, connects, makes
+/// the service, and runs it until SIGTERM or SIGINT, or until a recording that is its bus has
+/// ended. HEALTH goes out once a second. Returns the exit code: 0 after a wanted end, 1 with one
+/// line on stderr when it cannot start or the service throws.
 int run_service(int argc, char** argv, const ServiceInfo& info, const config::Section& settings,
-                const MakeService& make);
+                const CheckSettings& check, const MakeService& make);
+
+/// What Service::check(config) throws as std::invalid_argument; empty when it throws nothing, or
+/// there is no such member.
+template <class Service, class Config>
+std::string why_invalid_for([[maybe_unused]] const Config& config) try {
+  if constexpr (requires { Service::check(config); }) Service::check(config);
+  return {};
+} catch (const std::invalid_argument& error) {
+  return error.what();
+}
 
 /// The main of a service: Service is made as Service(Bus&, Health&, const Config&) and may have
-/// tick(now_us), stop(), and wake_fd() for a device that it reads in tick().
+/// tick(now_us), stop(), and wake_fd() for a device that it reads in tick(). Its static
+/// check(config), if it has one, throws std::invalid_argument for settings that its constructor
+/// would refuse, and opens nothing: --check-config asks for it.
 template <class Service, class Config>
 int run_service(int argc, char** argv, const ServiceInfo& info) {
   struct Adapter : RunningService {
@@ -66,10 +82,12 @@ int run_service(int argc, char** argv, const ServiceInfo& info) {
     Service service;
   };
   Config config;
-  return run_service(argc, argv, info, config::section(info.name, config),
-                     [&](bus::Bus& bus, bus::Health& health) {
-                       return std::make_unique<Adapter>(bus, health, config);
-                     });
+  return run_service(
+      argc, argv, info, config::section(info.name, config),
+      [&] { return why_invalid_for<Service>(config); },
+      [&](bus::Bus& bus, bus::Health& health) {
+        return std::make_unique<Adapter>(bus, health, config);
+      });
 }
 
 }  // namespace voxlist::service

@@ -32,6 +32,10 @@ CloudAssemblerService::CloudAssemblerService(bus::Bus& bus, bus::Health& health,
   bus_.subscribe(bus::kOdometry, [this](const pose_t& m) { take_odometry(m); });
 }
 
+void CloudAssemblerService::check(const scanner::CloudAssemblerConfig& config) {
+  scanner::CloudAssembler{config};
+}
+
 void CloudAssemblerService::take_laser(const planar_lidar_t& message) {
   laser_.heard = true;
   auto line = bus::from_message(message);

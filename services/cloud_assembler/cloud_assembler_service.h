@@ -22,6 +22,9 @@ class CloudAssemblerService {
   CloudAssemblerService(bus::Bus& bus, bus::Health& health,
                         const scanner::CloudAssemblerConfig& config);
 
+  /// Throws std::invalid_argument for settings that the constructor would refuse.
+  static void check(const scanner::CloudAssemblerConfig& config);
+
   /// Tells HEALTH what is missing, and how long the last cloud took.
   void tick(std::int64_t now_us);
 

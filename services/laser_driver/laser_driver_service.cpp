@@ -4,6 +4,7 @@
 #include <spdlog/spdlog.h>
 
 #include <chrono>
+#include <stdexcept>
 #include <voxlist/planar_lidar_t.hpp>
 
 #include "voxlist/bus/bus.h"
@@ -29,6 +30,11 @@ std::unique_ptr<serial::Port> open_serial(const std::string& path) {
 LaserDriverService::LaserDriverService(bus::Bus& bus, bus::Health& health,
                                        const scanner::Lms200Config& config)
     : bus_(bus), health_(health), port_(config.port), reader_(config, open_serial) {}
+
+void LaserDriverService::check(const scanner::Lms200Config& config) {
+  if (const std::string wrong = why_invalid(config); !wrong.empty())
+    throw std::invalid_argument(wrong);
+}
 
 void LaserDriverService::tick(std::int64_t) {
   const LaserReader::News news = reader_.take();

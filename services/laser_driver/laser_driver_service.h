@@ -19,6 +19,9 @@ class LaserDriverService {
   /// settings that make no sense.
   LaserDriverService(bus::Bus& bus, bus::Health& health, const scanner::Lms200Config& config);
 
+  /// Throws std::invalid_argument for settings that the constructor would refuse.
+  static void check(const scanner::Lms200Config& config);
+
   /// Can be read when tick() has something to do.
   int wake_fd() const { return reader_.wake_fd(); }
 

@@ -64,6 +64,11 @@ LocaliserService::LocaliserService(bus::Bus& bus, bus::Health& health,
   bus_.subscribe(bus::kCloud, [this](const pointcloud_t& message) { take_cloud(message); });
 }
 
+void LocaliserService::check(const LocaliserServiceConfig& config) {
+  const OccupancyMap none;
+  matching::Localiser(none, config.localiser);
+}
+
 void LocaliserService::take_cloud(const pointcloud_t& message) {
   auto cloud = cloud_input_.take(message);
   if (!cloud) return;

@@ -49,6 +49,9 @@ class LocaliserService {
  public:
   LocaliserService(bus::Bus& bus, bus::Health& health, const LocaliserServiceConfig& config);
 
+  /// Throws std::invalid_argument for an engine that there is not.
+  static void check(const LocaliserServiceConfig& config);
+
   /// Matches the waiting cloud when its turn has come, and asks for the map when one is missing.
   void tick(std::int64_t now_us);
 

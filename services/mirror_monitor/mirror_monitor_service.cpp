@@ -49,6 +49,11 @@ MirrorMonitorService::MirrorMonitorService(bus::Bus& bus, bus::Health& health,
   bus_.subscribe(bus::kLaser, [this](const planar_lidar_t& m) { take(m); });
 }
 
+void MirrorMonitorService::check(const MirrorMonitorConfig& config) {
+  mirror_clock_config(config);
+  open_edge_source(config.clock, wall_us);
+}
+
 void MirrorMonitorService::take(const planar_lidar_t& message) {
   const std::optional<LaserLine> line = bus::from_message(message);
   if (!line) return health_.count("LASER/bad_line");

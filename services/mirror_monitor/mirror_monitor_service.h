@@ -35,6 +35,9 @@ class MirrorMonitorService {
   MirrorMonitorService(bus::Bus& bus, bus::Health& health, const MirrorMonitorConfig& config,
                        WallClock wall_clock);
 
+  /// Throws std::invalid_argument for settings that the constructor would refuse.
+  static void check(const MirrorMonitorConfig& config);
+
   /// Can be read when the clock has edges.
   int wake_fd() const { return edges_ ? edges_->wake_fd() : -1; }
 

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "services/mirror_monitor/gpio_edge_source.h"
+#include "voxlist/serial/line_speed.h"
 #include "voxlist/serial/modem_edge_source.h"
 #include "voxlist/serial/reopened_edge_source.h"
 #include "voxlist/serial/text_edge_source.h"
@@ -65,7 +66,7 @@ std::unique_ptr<serial::EdgeSource> open_edge_source(const std::string& where,
   } else if (where.starts_with("text:") && where.size() > 5) {
     const auto parts = split(where.substr(5), '@');
     const auto baud = parts ? number(parts->second) : kUsualBaud;
-    if (!baud) refuse(where);
+    if (!baud || !serial::line_speed(*baud)) refuse(where);
     open = [path = parts ? parts->first : where.substr(5), baud = *baud, clock = std::move(clock)] {
       return std::make_unique<serial::TextEdgeSource>(path, baud, clock);
     };

@@ -46,6 +46,8 @@ ObstacleDetectorService::ObstacleDetectorService(bus::Bus& bus, bus::Health& hea
       bus::kCloud, [this](const pointcloud_t& m) { take(m); }, bus::Delivery::kLatest);
 }
 
+void ObstacleDetectorService::check(const planning::ObstacleConfig& config) { checked(config); }
+
 void ObstacleDetectorService::take(const pointcloud_t& message) {
   const std::optional<Cloud> cloud = input_.take(message);
   if (!cloud) return;

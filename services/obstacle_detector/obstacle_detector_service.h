@@ -21,6 +21,9 @@ class ObstacleDetectorService {
   ObstacleDetectorService(bus::Bus& bus, bus::Health& health,
                           const planning::ObstacleConfig& config);
 
+  /// Throws std::invalid_argument for settings that the constructor would refuse.
+  static void check(const planning::ObstacleConfig& config);
+
   /// Notes for HEALTH how long the last cloud took.
   void tick(std::int64_t now_us);
 

@@ -35,6 +35,8 @@ ScanSourceService::ScanSourceService(bus::Bus& bus, bus::Health& health,
       folder_(config.folder),
       events_(io::events_of(folder_)) {}
 
+void ScanSourceService::check(const ScanSourceConfig& config) { checked(config); }
+
 std::int64_t ScanSourceService::round_us() const {
   const auto scans = static_cast<std::int64_t>(folder_.size());
   const std::int64_t scans_us = folder_.utime_us(folder_.size() - 1) - folder_.utime_us(0);

@@ -38,6 +38,9 @@ class ScanSourceService {
   /// the folder makes no sense, or its odometry is of another time than its scans.
   ScanSourceService(bus::Bus& bus, bus::Health& health, const ScanSourceConfig& config);
 
+  /// Throws std::invalid_argument for settings that the constructor would refuse.
+  static void check(const ScanSourceConfig& config);
+
   /// Publishes what is due until now, one scan at most. The first event is due at the first call.
   void tick(std::int64_t now_us);
 

@@ -61,6 +61,10 @@ SimulatorService::SimulatorService(bus::Bus& bus, bus::Health& health,
       timer_(timerfd_create(CLOCK_MONOTONIC, TFD_NONBLOCK | TFD_CLOEXEC)),
       next_(run_.next()) {}
 
+void SimulatorService::check(const SimulatorConfig& config) {
+  simulation::SimulatedRun{checked(config).simulation};
+}
+
 void SimulatorService::tick(std::int64_t now_us) {
   if (!start_us_) start(now_us);
   const double run_us = config_.speed * static_cast<double>(now_us - *start_us_);

@@ -22,6 +22,9 @@ class SimulatorService {
   /// settings do not fit together.
   SimulatorService(bus::Bus& bus, bus::Health& health, const SimulatorConfig& config);
 
+  /// Throws std::invalid_argument for settings that the constructor would refuse.
+  static void check(const SimulatorConfig& config);
+
   /// Publishes what has happened until now. The run starts with the first call, which makes the
   /// scanner's ports (throws PortError): its times count from there.
   void tick(std::int64_t now_us);

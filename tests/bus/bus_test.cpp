@@ -262,5 +262,21 @@ TEST(Bus, IsWokenByADeviceThatCanBeRead) {
   close(ends[1]);
 }
 
+TEST(BusOptions, AreCheckedWithoutANetwork) {
+  for (const std::string url :
+       {"udpm://239.255.76.67:7667?ttl=0", "udpm://239.255.76.67:7667?ttl=1&recv_buf_size=8000000",
+        "udpm://224.0.0.1", "udpm://", "udpm://?ttl=1", "memq://", "file:///tmp/a b.lcm?speed=0"}) {
+    EXPECT_EQ(why_invalid({.url = url, .prefix = "robot_1/"}), "") << url;
+  }
+  for (const std::string url :
+       {"", "udp://239.255.76.67:7667", "udpm://239.255.76.67:0", "udpm://239.255.76.67:70000",
+        "udpm://192.168.0.1:7667", "udpm://239.255.76:7667", "udpm://239.255.76.67:7667?ttl"}) {
+    EXPECT_NE(why_invalid({.url = url, .prefix = ""}).find("url '" + url + "'"), std::string::npos)
+        << url;
+  }
+  EXPECT_NE(why_invalid({.url = "memq://", .prefix = "a b"}), "");
+  EXPECT_NE(why_invalid({.url = "memq://", .prefix = std::string(40, 'a')}), "");
+}
+
 }  // namespace
 }  // namespace voxlist::bus

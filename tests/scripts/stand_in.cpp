@@ -2,7 +2,9 @@
 // do.
 #include <filesystem>
 #include <fstream>
+#include <stdexcept>
 
+#include "voxlist/bus/health.h"
 #include "voxlist/service/service.h"
 
 namespace voxlist {
@@ -10,16 +12,25 @@ namespace {
 
 struct StandInConfig {
   std::string farewell_file;
+  std::string error;
+  std::string engine = "search";
 
   template <class Visitor>
   void visit(Visitor& v) {
     v("farewell_file", farewell_file, "written on a wanted end");
+    v("error", error, "what HEALTH says");
+    v("engine", engine, "search; anything else is refused");
   }
 };
 
 class StandIn {
  public:
-  StandIn(bus::Bus&, bus::Health&, const StandInConfig& config) : config_(config) {}
+  StandIn(bus::Bus&, bus::Health& health, const StandInConfig& config) : config_(config) {
+    health.raise("error", bus::Health::State::kError, config.error);
+  }
+  static void check(const StandInConfig& config) {
+    if (config.engine != "search") throw std::invalid_argument("engine must be search");
+  }
   void stop() {
     if (!config_.farewell_file.empty()) std::ofstream(config_.farewell_file) << "saved\n";
   }

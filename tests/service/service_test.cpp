@@ -13,6 +13,7 @@
 #include "voxlist/pose_t.hpp"
 #include "voxlist/service/instance_lock.h"
 #include "voxlist/system/file_lock.h"
+#include "voxlist/system/version.h"
 
 namespace voxlist::service {
 namespace {
@@ -78,6 +79,15 @@ class BrokenService {
  public:
   BrokenService(bus::Bus&, bus::Health&, const CounterConfig&) {
     throw std::runtime_error("map folder /none: cannot be made; choose another");
+  }
+};
+
+// Has settings that no range tells to be wrong; must not be made.
+class PickyService : public BrokenService {
+ public:
+  using BrokenService::BrokenService;
+  static void check(const CounterConfig& config) {
+    if (config.ticks == 13) throw std::invalid_argument("ticks must not be 13");
   }
 };
 
@@ -185,6 +195,27 @@ TEST_F(RunService, DoesNotStartBesideAnotherOfItsKindOnTheSameBus) {
   EXPECT_EQ(run<CounterService>(
                 {"--lcm-url", "memq://", "--config", write_config("[bus]\nprefix = 'r2/'\n")}),
             0);
+}
+
+TEST_F(RunService, ChecksTheSettingsWithoutMakingTheService) {
+  const auto good = write_config("[bus]\nurl = 'memq://'\n[mapper]\nticks = 12\n");
+  EXPECT_EQ(run<PickyService>({"--config", good, "--check-config"}), 0);
+  EXPECT_EQ(out_ + err_, "");
+  const auto file = write_config("[bus]\nprefix = 'a b'\n[mapper]\nticks = 13\n");
+  EXPECT_EQ(run<PickyService>({"--config", file, "--check-config"}), 1);
+  EXPECT_THAT(err_, HasSubstr("mapper: " + file + ": [bus] channel prefix 'a b'"));
+  EXPECT_THAT(err_, HasSubstr("mapper: " + file + ": [mapper] ticks must not be 13\n"));
+}
+
+TEST_F(RunService, RefusesUnfitSettingsAtTheStartInTheSameWords) {
+  const auto file = write_config("[mapper]\nticks = 13\n");
+  EXPECT_EQ(run<PickyService>({"--config", file, "--lcm-url", "memq://"}), 1);
+  EXPECT_EQ(err_, "mapper: " + file + ": [mapper] ticks must not be 13\n");
+}
+
+TEST_F(RunService, TellsItsVersion) {
+  EXPECT_EQ(run<CounterService>({"--version"}), 0);
+  EXPECT_EQ(out_, version() + "\n");
 }
 
 }  // namespace
