@@ -4,8 +4,9 @@
 
 namespace voxlist::matching {
 
-CoarseMap::CoarseMap(const TolerantMap& map, double reach_m) : reach_m_(reach_m) {
-  constexpr std::int32_t kLooksAhead = 3;  // coarse cells, of the wide grids
+CoarseMap::CoarseMap(const DilatedMap& map, double reach_m) : reach_m_(reach_m) {
+  // A point looks up to so many coarse cells ahead: what a wide grid spans.
+  constexpr std::int32_t kLooksAhead = 3;
   margin_ = static_cast<std::int32_t>(std::ceil(reach_m / (map.cell_m() * kFactor))) + kLooksAhead;
   size_x_ = (map.size_x() + kFactor - 1) / kFactor;
   size_y_ = (map.size_y() + kFactor - 1) / kFactor;
@@ -13,7 +14,8 @@ CoarseMap::CoarseMap(const TolerantMap& map, double reach_m) : reach_m_(reach_m)
   rows_ = size_y_ + 2 * margin_;
   row_bits_ = size_x_ + 2 * margin_;
   free_bit_ = 4 * size_z_ * rows_ * row_bits_;
-  // A sweep reads whole vectors past its window's end; free cells are read over a whole window.
+  // A sweep reads whole vectors (of 8 words, twice) past its window's end, and free cells over a
+  // whole window.
   constexpr std::int64_t kVectorWords = 16;
   words_.assign(static_cast<std::size_t>((free_bit_ + rows_ * row_bits_) / 64 + kVectorWords), 0);
   for (std::int32_t z = 0; z < size_z_; ++z)

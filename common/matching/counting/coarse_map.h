@@ -3,22 +3,22 @@
 #include <cstdint>
 #include <vector>
 
-#include "voxlist/matching/counting/tolerant_map.h"
+#include "voxlist/matching/counting/dilated_map.h"
 
 namespace voxlist::matching {
 
-/// A tolerant map pooled into coarse cells of 8 x 8 cells, for upper bounds: a node is a coarse
+/// A dilated map pooled into coarse cells of 8 x 8 cells, for upper bounds: a node is a coarse
 /// cell of translations at eight neighbouring angles. A point that is in cell q at the node's first
 /// translation for one of the angles, and never beyond 16 (24) cells from the start of q's coarse
 /// cell over the whole node, hits the narrow (wide) grid at q's coarse cell whenever it hits the
-/// tolerant map at any pose of the node. Narrow or wide is chosen for x and y each: four bit grids.
+/// dilated map at any pose of the node. Narrow or wide is chosen for x and y each: four bit grids.
 class CoarseMap {
  public:
-  static constexpr std::int32_t kFactor = TolerantMap::kWindow;
+  static constexpr std::int32_t kFactor = DilatedMap::kWindow;
 
   /// `reach_m`: the farthest point of the scans to come. Grids have that much margin, so that no
   /// sweep leaves them.
-  CoarseMap(const TolerantMap& map, double reach_m);
+  CoarseMap(const DilatedMap& map, double reach_m);
 
   double reach_m() const { return reach_m_; }
 

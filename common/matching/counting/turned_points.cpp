@@ -80,7 +80,7 @@ class TurnedPoints::Turn {
   std::array<float, kGroup> cosines_, sines_;
 };
 
-TurnedPoints::TurnedPoints(const TolerantMap& map, std::span<const Eigen::Vector3f> points)
+TurnedPoints::TurnedPoints(const DilatedMap& map, std::span<const Eigen::Vector3f> points)
     : map_(map) {
   double radius_m = map.cell_m();
   for (const auto& p : points) {
@@ -114,7 +114,7 @@ std::vector<std::int64_t> TurnedPoints::coarse_cells(std::int32_t group,
   return bits;
 }
 
-std::span<const TolerantMap::Place> TurnedPoints::places(std::int32_t group, std::int32_t part) {
+std::span<const DilatedMap::Place> TurnedPoints::places(std::int32_t group, std::int32_t part) {
   const auto& places = places_[static_cast<std::size_t>(group)];
   if (places.empty()) make_places(group);
   return std::span(places).subspan(static_cast<std::size_t>(part) * size(), size());

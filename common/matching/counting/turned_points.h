@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "voxlist/matching/counting/coarse_sweep.h"
-#include "voxlist/matching/counting/tolerant_map.h"
+#include "voxlist/matching/counting/dilated_map.h"
 
 namespace voxlist::matching {
 
@@ -24,7 +24,7 @@ class TurnedPoints {
   static constexpr std::int32_t kFirstSingle = kGroup - 1;
 
   /// Points (base, m) outside the map's layers are left out: they hit nothing.
-  TurnedPoints(const TolerantMap& map, std::span<const Eigen::Vector3f> points);
+  TurnedPoints(const DilatedMap& map, std::span<const Eigen::Vector3f> points);
 
   /// Points that are left.
   std::size_t size() const { return points_.size(); }
@@ -41,7 +41,7 @@ class TurnedPoints {
   /// Where the points' windows lie at translation (0, 0), on maps blurred as far as each point
   /// moves within the part: a window tells at which translations the point may hit for one of the
   /// part's angles, and exactly so for a single one. Use from one thread.
-  std::span<const TolerantMap::Place> places(std::int32_t group, std::int32_t part);
+  std::span<const DilatedMap::Place> places(std::int32_t group, std::int32_t part);
 
  private:
   struct Cell {
@@ -54,11 +54,11 @@ class TurnedPoints {
 
   void make_places(std::int32_t group);
 
-  const TolerantMap& map_;
+  const DilatedMap& map_;
   std::vector<Eigen::Vector2f> points_;
   std::vector<std::int32_t> layers_;
   std::int32_t groups_;
-  std::vector<std::vector<TolerantMap::Place>> places_;  // by group; by part and point
+  std::vector<std::vector<DilatedMap::Place>> places_;  // by group; by part and point
 };
 
 }  // namespace voxlist::matching

@@ -31,7 +31,7 @@ SearchConfig search_config(const MatcherConfig& config, double mode_ratio) {
 }
 
 // Moves each mode to the middle of its peak of counts.
-void move_to_peaks(const TolerantMap& map, const std::vector<Eigen::Vector3f>& points,
+void move_to_peaks(const DilatedMap& map, const std::vector<Eigen::Vector3f>& points,
                    std::vector<OverlapMode>& modes) {
   for (OverlapMode& mode : modes) mode.pose = middle_of_peak(map, points, mode.pose);
 }
@@ -43,7 +43,7 @@ void keep_contenders(std::vector<MatchMode>& modes) {
   modes.resize(kept);
 }
 
-double significance_log10(const TolerantMap& cells, std::size_t points, const SearchResult& found) {
+double significance_log10(const DilatedMap& cells, std::size_t points, const SearchResult& found) {
   return log10_significance(std::int64_t{cells.size_x()} * cells.size_y() * cells.size_z(),
                             cells.occupied_cells(), points, found.modes.front().overlap,
                             found.lattice_poses);
@@ -66,12 +66,12 @@ Match GlobalMatcher::match(const PreparedScan& scan, const EvidenceMap& evidence
   Match match(found);
   match.unseen = found.complete ? mode_ratio : 1.0;
   if (found.modes.empty()) return match;
-  move_to_peaks(map.tolerant(), points, found.modes);
+  move_to_peaks(map.dilated(), points, found.modes);
   match.modes = refined(surfels_, scan.few_points(), candidates_of(found, points.size()));
   rank(evidence, scan.few_rays(), match.modes);
   keep_contenders(match.modes);
   match.modes = refined(surfels_, scan.points(), match.modes);
-  match.significance_log10 = significance_log10(map.tolerant(), points.size(), found);
+  match.significance_log10 = significance_log10(map.dilated(), points.size(), found);
   return match;
 }
 

@@ -51,7 +51,7 @@ std::vector<MatchMode> refined(const SurfelMap& surfels, const RayPoints& points
     const Refinement refinement = refine(surfels, points, mode.pose, config);
     mode.pose = refinement.pose;
     mode.covariance = refinement.covariance;
-    mode.inlier_ratio = refinement.inlier_share;
+    mode.inlier_ratio = refinement.inlier_ratio;
     if (!holds(modes, mode.pose)) modes.push_back(mode);
   }
   return modes;

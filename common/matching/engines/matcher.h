@@ -31,7 +31,7 @@ inline constexpr std::array kEngineNames{"search", "particle_filter"};
 
 struct MatcherConfig {
   Engine engine = Engine::kSearch;
-  /// Cell of the tolerant map and lattice of the poses (m) in a search of the whole map (doubled
+  /// Cell of the dilated map and lattice of the poses (m) in a search of the whole map (doubled
   /// for scans that reach far); refinement goes on from there. Finer: fewer false modes, and the
   /// cube of the ratio slower.
   double resolution_m = 0.04;
@@ -61,7 +61,7 @@ struct MatchMode {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   /// Before refinement.
   Pose2 start;
-  /// Counted points in occupied cells of the tolerant map before refinement, as a share, 0..1.
+  /// Counted points in occupied cells of the dilated map before refinement, as a share, 0..1.
   double overlap_ratio = 0.0;
   /// Points that lie on the map's surfaces after refinement, as a share, 0..1.
   double inlier_ratio = 0.0;

@@ -27,7 +27,7 @@ struct PoseMode {
   Pose2 T_map_base;
   /// Of (x, y, yaw): m^2, m rad, rad^2.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  /// Matched points whose cell is occupied in the tolerant map, as a share, 0..1.
+  /// Matched points whose cell is occupied in the dilated map, as a share, 0..1.
   double overlap_ratio = 0.0;
   /// How well map and scan agree there. 0 while tracking.
   PoseSupport support;

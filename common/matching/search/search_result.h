@@ -15,11 +15,13 @@ inline constexpr int kMostNodes = 100'000;
 
 /// What is asked of a search for the poses of a lattice that overlap a map most.
 struct SearchConfig {
-  /// Modes reported beside the best one overlap at least this share of the best overlap.
+  /// Modes reported beside the best one overlap at least this share of the best overlap. Lower:
+  /// more rivals are known, and searches take longer. Engines set their own.
   double mode_ratio = 0.8;
   /// Most modes reported.
   std::size_t max_modes = 8;
-  /// Two poses nearer than this, both in distance and in heading, are one mode.
+  /// Two poses nearer than this, both in distance and in heading, are one mode: about a robot's
+  /// size. Engines set their own.
   double mode_distance_m = 0.5;
   double mode_turn_rad = 0.2;
   /// Most nodes expanded; then the search stops early and says so.
@@ -29,7 +31,7 @@ struct SearchConfig {
 /// A local best of the overlap.
 struct OverlapMode {
   Pose2 pose;
-  /// Points whose cell is occupied in the tolerant map.
+  /// Points whose cell is occupied in the dilated map.
   int overlap = 0;
 };
 

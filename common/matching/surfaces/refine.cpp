@@ -54,7 +54,7 @@ void tell_inliers(const std::vector<Correspondence<kDof>>& correspondences, std:
     squares += c.residual * c.residual;
     ++inliers;
   }
-  if (points > 0) result.inlier_share = inliers / static_cast<double>(points);
+  if (points > 0) result.inlier_ratio = inliers / static_cast<double>(points);
   if (inliers > 0) result.residual_m = std::sqrt(squares / inliers);
 }
 

@@ -45,7 +45,7 @@ struct RefinementOf {
   /// rad^2. The turns of a spatial pose are about map's axes.
   Eigen::Matrix<double, kDof, kDof> covariance;
   /// Points that lie within 2 scale_m of a surface of the map, as a share of all points, 0..1.
-  double inlier_share = 0.0;
+  double inlier_ratio = 0.0;
   /// Root mean square distance of those points from their surfaces (m).
   double residual_m = 0.0;
   bool converged = false;

@@ -56,8 +56,8 @@ int count_in(const NodeCounts& counts, std::size_t bit) {
 void expect_counts_of_a_plain_loop(std::int32_t size_x, std::int32_t size_y) {
   SCOPED_TRACE(testing::Message() << size_x << " x " << size_y);
   const auto seed = static_cast<unsigned>(size_x);
-  const TolerantMap tolerant(random_map(seed, size_x, size_y), 0.25, 4.0);
-  const CoarseMap map(tolerant, 4.0);
+  const DilatedMap dilated(random_map(seed, size_x, size_y), 0.25, 4.0);
+  const CoarseMap map(dilated, 4.0);
   ASSERT_EQ(map.size_x(), size_x);
   ASSERT_EQ(map.size_y(), size_y);
   const std::vector<std::int64_t> cells = random_cells(map, seed + 1);
@@ -84,7 +84,7 @@ TEST(CoarseSweep, CountsLikeAPlainLoopForAllWidthsAndInstructions) {
 }
 
 TEST(CoarseSweep, CountsUpToTheLastPlane) {
-  const CoarseMap map(TolerantMap(random_map(1, 20, 5), 0.25, 4.0), 4.0);
+  const CoarseMap map(DilatedMap(random_map(1, 20, 5), 0.25, 4.0), 4.0);
   const std::int64_t bit = map.bit(true, true, 0, 0, 0);
   for (const Instructions instructions : instruction_sets()) {
     const NodeCounts counts = coarse_sweep(map, std::vector<std::int64_t>(1023, bit), instructions);
@@ -93,7 +93,7 @@ TEST(CoarseSweep, CountsUpToTheLastPlane) {
 }
 
 TEST(CoarseSweep, CountsNothingForNoCells) {
-  const CoarseMap map(TolerantMap(random_map(1, 20, 5), 0.25, 4.0), 4.0);
+  const CoarseMap map(DilatedMap(random_map(1, 20, 5), 0.25, 4.0), 4.0);
   for (const Instructions instructions : instruction_sets()) {
     const NodeCounts counts = coarse_sweep(map, {}, instructions);
     EXPECT_EQ(counts.planes.size(), kCountPlanes * counts.words);
@@ -103,17 +103,17 @@ TEST(CoarseSweep, CountsNothingForNoCells) {
 }
 
 TEST(CoarseMap, GridsHoldTheCellsAheadUpToTheirWidth) {
-  const TolerantMap tolerant(random_map(5, 9, 6), 0.25, 4.0);
-  const CoarseMap map(tolerant, 4.0);
+  const DilatedMap dilated(random_map(5, 9, 6), 0.25, 4.0);
+  const CoarseMap map(dilated, 4.0);
   for (const bool wide_x : {false, true})
     for (const bool wide_y : {false, true})
-      for (std::int32_t z = 0; z < tolerant.size_z(); ++z)
+      for (std::int32_t z = 0; z < dilated.size_z(); ++z)
         for (std::int32_t y = -4; y < map.size_y() + 4; ++y)
           for (std::int32_t x = -4; x < map.size_x() + 4; ++x) {
             std::uint64_t any = 0;
             for (std::int32_t j = 0; j < (wide_y ? 3 : 2); ++j)
               for (std::int32_t i = 0; i < (wide_x ? 3 : 2); ++i)
-                any |= tolerant.window_anywhere(8 * (x + i), 8 * (y + j), z);
+                any |= dilated.window_anywhere(8 * (x + i), 8 * (y + j), z);
             const auto bit = static_cast<std::size_t>(map.bit(wide_x, wide_y, x, y, z));
             ASSERT_EQ(map.words()[bit / 64] >> bit % 64 & 1, std::uint64_t{any != 0})
                 << wide_x << wide_y << ' ' << x << ' ' << y << ' ' << z;

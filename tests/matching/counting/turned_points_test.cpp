@@ -21,7 +21,7 @@ std::pair<std::int32_t, std::int32_t> singles(std::int32_t part) {
 TEST(TurnedPoints, WindowsOfAPartHoldThoseOfItsAngles) {
   for (unsigned seed = 0; seed < 5; ++seed) {
     const LatticeWorld world = lattice_world(seed);
-    const TolerantMap map(world.map, 0.04, kReach_m);
+    const DilatedMap map(world.map, 0.04, kReach_m);
     TurnedPoints points(map, world.scan);
     std::int64_t more = 0;
     for (std::int32_t group = 0; group < points.groups(); ++group)
@@ -42,7 +42,7 @@ TEST(TurnedPoints, WindowsOfAPartHoldThoseOfItsAngles) {
 
 TEST(TurnedPoints, WindowsOfSingleAnglesAreSharp) {
   const LatticeWorld world = lattice_world(7);
-  const TolerantMap map(world.map, 0.04, kReach_m);
+  const DilatedMap map(world.map, 0.04, kReach_m);
   const std::vector<Eigen::Vector3f> scan(world.scan.begin(), world.scan.begin() + 5);
   TurnedPoints points(map, scan);
   ASSERT_EQ(points.size(), scan.size());

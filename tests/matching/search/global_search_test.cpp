@@ -55,7 +55,7 @@ TEST(GlobalSearch, BoundsAreNotBelowAnyPoseOfTheirNodes) {
     const LatticeWorld world = lattice_world(seed);
     const GlobalMap map(world.map, kCell_m, kReach_m);
     const AllOverlaps all(map, world.scan);
-    TurnedPoints points(map.tolerant(), world.scan);
+    TurnedPoints points(map.dilated(), world.scan);
     for (std::int32_t group = 0; group < points.groups(); ++group) {
       const NodeCounts counts =
           coarse_sweep(map.coarse(), points.coarse_cells(group, map.coarse()), best_instructions());
@@ -187,7 +187,7 @@ TEST(GlobalSearch, PointsOutsideTheLayersChangeNothing) {
 TEST(GlobalSearch, FindsAScanThatLooksInFromTheMapsEdge) {
   // A pose from which most points, turned by some other angle, would lie far outside the map.
   const LatticeWorld world = lattice_world(3);
-  const Voxel corner = TolerantMap(world.map, 0.04, kReach_m).lowest();
+  const Voxel corner = DilatedMap(world.map, 0.04, kReach_m).lowest();
   const Pose2 truth{corner.x * 0.04, corner.y * 0.04, 2.0};
   std::vector<Eigen::Vector3f> scan;
   std::int64_t count = 0;
@@ -214,9 +214,9 @@ TEST(GlobalSearch, RefusesWhatItCannotCount) {
 
 TEST(GlobalMap, DoublesItsCellForScansThatReachFar) {
   const VoxelMap map = lattice_world(1).map;
-  EXPECT_DOUBLE_EQ(GlobalMap(map, 0.04, 32.0).tolerant().cell_m(), 0.04);
-  EXPECT_DOUBLE_EQ(GlobalMap(map, 0.04, 33.0).tolerant().cell_m(), 0.08);
-  EXPECT_DOUBLE_EQ(GlobalMap(map, 0.04, 100.0).tolerant().cell_m(), 0.16);
+  EXPECT_DOUBLE_EQ(GlobalMap(map, 0.04, 32.0).dilated().cell_m(), 0.04);
+  EXPECT_DOUBLE_EQ(GlobalMap(map, 0.04, 33.0).dilated().cell_m(), 0.08);
+  EXPECT_DOUBLE_EQ(GlobalMap(map, 0.04, 100.0).dilated().cell_m(), 0.16);
 }
 
 // A room of 4 x 4 x 1 m with floor and ceiling, and `n` points on one of its walls.

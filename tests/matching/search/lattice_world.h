@@ -47,7 +47,7 @@ class AllOverlaps {
  public:
   AllOverlaps(const GlobalMap& map, const std::vector<Eigen::Vector3f>& scan)
       : map_(map),
-        angles_(TurnedPoints(map.tolerant(), scan).angles()),
+        angles_(TurnedPoints(map.dilated(), scan).angles()),
         size_x_(8 * map.coarse().size_x()),
         size_y_(8 * map.coarse().size_y()) {
     copy_cells();
@@ -65,14 +65,14 @@ class AllOverlaps {
   }
 
   Pose2 pose(std::int32_t angle, std::int32_t x, std::int32_t y) const {
-    const TolerantMap& cells = map_.tolerant();
+    const DilatedMap& cells = map_.dilated();
     return {(cells.lowest().x + x) * cells.cell_m(), (cells.lowest().y + y) * cells.cell_m(),
             wrap_angle(yaw_rad(angle))};
   }
 
   /// The overlap of a pose of the lattice, or -1.
   int at(const Pose2& pose) const {
-    const TolerantMap& cells = map_.tolerant();
+    const DilatedMap& cells = map_.dilated();
     const auto nearest = [](double value) { return static_cast<std::int32_t>(std::lround(value)); };
     const std::int32_t angle = (nearest(pose.yaw_rad / yaw_rad(1)) + angles_) % angles_;
     const std::int32_t x = nearest(pose.x_m / cells.cell_m()) - cells.lowest().x,
@@ -101,7 +101,7 @@ class AllOverlaps {
   double yaw_rad(std::int32_t angle) const { return 2.0 * std::numbers::pi * angle / angles_; }
 
   void count(std::int32_t angle, const Eigen::Vector3f& p) {
-    const TolerantMap& cells = map_.tolerant();
+    const DilatedMap& cells = map_.dilated();
     const std::int32_t layer = cells.layer(double(p.z()));
     if (layer < 0 || layer >= cells.size_z()) return;
     // In floats like the search: a point on the border of two cells belongs to the same one.
@@ -118,13 +118,13 @@ class AllOverlaps {
   }
 
   std::ptrdiff_t place(std::int32_t x, std::int32_t y, std::int32_t z) const {
-    const TolerantMap& cells = map_.tolerant();
+    const DilatedMap& cells = map_.dilated();
     return (std::ptrdiff_t{z} * cells.size_x() + x) * cells.size_y() + y;
   }
 
   // A byte a cell.
   void copy_cells() {
-    const TolerantMap& cells = map_.tolerant();
+    const DilatedMap& cells = map_.dilated();
     for (std::int32_t z = 0; z < cells.size_z(); ++z)
       for (std::int32_t x = 0; x < cells.size_x(); ++x)
         for (std::int32_t y = 0; y < cells.size_y(); ++y)

@@ -24,7 +24,7 @@ TEST(OverlapPeak, ItsMiddleIsNearerToTheTruthThanTheBestOfTheLattice) {
     const auto points = map.choose_points(PreparedScan(cloud), 500);
     const SearchResult found = global_search(map, points, {});
     ASSERT_FALSE(found.modes.empty()) << "seed " << seed;
-    const Pose2 best = found.modes[0].pose, middle = middle_of_peak(map.tolerant(), points, best);
+    const Pose2 best = found.modes[0].pose, middle = middle_of_peak(map.dilated(), points, best);
     EXPECT_LT(distance_m(middle, counted), 0.02) << "seed " << seed;
     EXPECT_LT(turn_rad(middle, truth), 0.005) << "seed " << seed;
     best_m += distance_m(best, counted), best_rad += turn_rad(best, truth);
@@ -37,11 +37,11 @@ TEST(OverlapPeak, ItsMiddleIsNearerToTheTruthThanTheBestOfTheLattice) {
 TEST(OverlapPeak, IsWhereThePoseWasWhenNothingOverlaps) {
   VoxelMap map(kFinestResolution_m);
   map.insert({0, 0, 0});
-  const TolerantMap tolerant(map, kCell_m, kReach_m);
+  const DilatedMap dilated(map, kCell_m, kReach_m);
   const std::vector<Eigen::Vector3f> points{{2.0F, 0.0F, 0.0F}};
   const Pose2 pose{0.04, 0.08, std::numbers::pi / 2.0};
-  EXPECT_EQ(middle_of_peak(tolerant, points, pose), pose);
-  EXPECT_EQ(middle_of_peak(tolerant, {}, pose), pose);
+  EXPECT_EQ(middle_of_peak(dilated, points, pose), pose);
+  EXPECT_EQ(middle_of_peak(dilated, {}, pose), pose);
 }
 
 }  // namespace

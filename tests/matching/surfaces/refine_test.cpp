@@ -40,7 +40,7 @@ TEST(Refine, FindsThePoseToHalfAVoxelOfTheMap) {
     EXPECT_TRUE(refined.converged);
     EXPECT_LT(distance_m(refined.pose, room.truth), 0.016) << "seed " << seed;
     EXPECT_LT(turn_rad(refined.pose, room.truth), 0.002) << "seed " << seed;
-    EXPECT_GT(refined.inlier_share, 0.5);
+    EXPECT_GT(refined.inlier_ratio, 0.5);
   }
 }
 
@@ -68,7 +68,7 @@ TEST(Refine, StaysAtItsStartWhereThereIsNoSurface) {
   const auto refined = refine(SurfelMap(nothing), scan, Pose2{1.0, 2.0, 3.0});
   EXPECT_EQ(distance_m(refined.pose, {1.0, 2.0, 0.0}), 0.0);
   EXPECT_NEAR(refined.pose.yaw_rad, 3.0, 1e-12);
-  EXPECT_EQ(refined.inlier_share, 0.0);
+  EXPECT_EQ(refined.inlier_ratio, 0.0);
 }
 
 TEST(SurfelMap, FitsTheWallThatAPointLiesOn) {

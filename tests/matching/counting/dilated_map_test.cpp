@@ -1,4 +1,4 @@
-#include "voxlist/matching/counting/tolerant_map.h"
+#include "voxlist/matching/counting/dilated_map.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 namespace voxlist::matching {
 namespace {
 
-// The cells of a tolerant map by its header's words, counted from the world's origin.
-std::set<Voxel> tolerant_cells(const VoxelMap& map, std::int32_t factor) {
+// The cells of a dilated map by its header's words, counted from the world's origin.
+std::set<Voxel> dilated_cells(const VoxelMap& map, std::int32_t factor) {
   std::set<Voxel> cells;
   map.for_each_voxel([&](const Voxel& v) {
     const Voxel c{floor_div(v.x, factor), floor_div(v.y, factor), floor_div(v.z, factor)};
@@ -20,7 +20,7 @@ std::set<Voxel> tolerant_cells(const VoxelMap& map, std::int32_t factor) {
   return cells;
 }
 
-bool occupied(const TolerantMap& map, const Voxel& cell) {
+bool occupied(const DilatedMap& map, const Voxel& cell) {
   const Voxel& low = map.lowest();
   return map.window_anywhere(cell.x - low.x, cell.y - low.y, cell.z - low.z) & 1;
 }
@@ -33,14 +33,14 @@ VoxelMap random_map(unsigned seed) {
   return map;
 }
 
-TEST(TolerantMap, GrowsByFacesOnlyInLayersTwiceAsHigh) {
+TEST(DilatedMap, GrowsByFacesOnlyInLayersTwiceAsHigh) {
   VoxelMap voxel;
   voxel.insert({-3, 5, -1});  // cell (-2, 2, -1) of 0.04 m: the upper half of layer -1
-  const TolerantMap map(voxel, 0.04, 1.0);
+  const DilatedMap map(voxel, 0.04, 1.0);
   EXPECT_DOUBLE_EQ(map.layer_m(), 0.08);
   const std::set<Voxel> expected{{-2, 2, -1}, {-2, 2, 0},  {-3, 2, -1},
                                  {-1, 2, -1}, {-2, 1, -1}, {-2, 3, -1}};
-  EXPECT_EQ(tolerant_cells(voxel, 2), expected);
+  EXPECT_EQ(dilated_cells(voxel, 2), expected);
   for (std::int32_t x = -12; x < 12; ++x)
     for (std::int32_t y = -12; y < 12; ++y)
       for (std::int32_t z = -4; z < 4; ++z)
@@ -49,11 +49,11 @@ TEST(TolerantMap, GrowsByFacesOnlyInLayersTwiceAsHigh) {
   EXPECT_EQ(map.occupied_cells(), 6);
 }
 
-TEST(TolerantMap, HoldsTheCellsThatItsHeaderSays) {
+TEST(DilatedMap, HoldsTheCellsThatItsHeaderSays) {
   for (const std::int32_t factor : {1, 2, 3, 4}) {
     const VoxelMap voxels = random_map(static_cast<unsigned>(factor));
-    const TolerantMap map(voxels, 0.02 * factor, 1.0);
-    const std::set<Voxel> expected = tolerant_cells(voxels, factor);
+    const DilatedMap map(voxels, 0.02 * factor, 1.0);
+    const std::set<Voxel> expected = dilated_cells(voxels, factor);
     EXPECT_EQ(map.occupied_cells(), static_cast<std::int64_t>(expected.size()));
     for (const Voxel& cell : expected)
       ASSERT_TRUE(occupied(map, cell))
@@ -61,18 +61,18 @@ TEST(TolerantMap, HoldsTheCellsThatItsHeaderSays) {
   }
 }
 
-TEST(TolerantMap, WindowsTellTheirCellsAtEachBlurAlsoBeyondTheBox) {
+TEST(DilatedMap, WindowsTellTheirCellsAtEachBlurAlsoBeyondTheBox) {
   constexpr std::int32_t kReach = 10;  // cells
   const VoxelMap voxels = random_map(7);
-  const TolerantMap map(voxels, 0.04, kReach * 0.04);
-  const std::set<Voxel> cells = tolerant_cells(voxels, 2);
+  const DilatedMap map(voxels, 0.04, kReach * 0.04);
+  const std::set<Voxel> cells = dilated_cells(voxels, 2);
   const auto blurred = [&](const Voxel& cell, std::int32_t blur) {
     for (std::int32_t dx = 0; dx < 1 << blur; ++dx)
       for (std::int32_t dy = 0; dy < 1 << blur; ++dy)
         if (cells.contains({cell.x + dx, cell.y + dy, cell.z})) return true;
     return false;
   };
-  for (std::int32_t blur = 0; blur < TolerantMap::kBlurs; ++blur)
+  for (std::int32_t blur = 0; blur < DilatedMap::kBlurs; ++blur)
     for (std::int32_t z = 0; z < map.size_z(); ++z)
       for (std::int32_t x = -kReach; x < map.size_x() + kReach; x += 3)
         for (std::int32_t y = -kReach; y < map.size_y() + kReach; ++y) {
@@ -90,8 +90,8 @@ TEST(TolerantMap, WindowsTellTheirCellsAtEachBlurAlsoBeyondTheBox) {
         }
 }
 
-TEST(TolerantMap, PlacesMoveByWholeWindows) {
-  const TolerantMap map(random_map(9), 0.04, 1.0);
+TEST(DilatedMap, PlacesMoveByWholeWindows) {
+  const DilatedMap map(random_map(9), 0.04, 1.0);
   for (std::int32_t x = -8; x < 8; x += 3)
     for (std::int32_t y = -8; y < 8; y += 3)
       for (std::int32_t wx = -1; wx <= 1; ++wx)
@@ -100,8 +100,8 @@ TEST(TolerantMap, PlacesMoveByWholeWindows) {
                     map.window_anywhere(x + 8 * wx, y + 8 * wy, 1));
 }
 
-TEST(TolerantMap, NothingIsFarOutside) {
-  const TolerantMap map(random_map(7), 0.04, 1.0);
+TEST(DilatedMap, NothingIsFarOutside) {
+  const DilatedMap map(random_map(7), 0.04, 1.0);
   for (const std::int32_t far : {-100'000, 100'000}) {
     EXPECT_EQ(map.window_anywhere(far, 0, 0), 0u);
     EXPECT_EQ(map.window_anywhere(0, far, 0), 0u);
@@ -109,9 +109,9 @@ TEST(TolerantMap, NothingIsFarOutside) {
   }
 }
 
-TEST(TolerantMap, FindsTheLayerOfAHeight) {
+TEST(DilatedMap, FindsTheLayerOfAHeight) {
   const VoxelMap voxels = random_map(8);
-  const TolerantMap map(voxels, 0.04, 1.0);
+  const DilatedMap map(voxels, 0.04, 1.0);
   EXPECT_EQ(map.layer(0.0), -map.lowest().z);
   EXPECT_EQ(map.layer(-0.001), -map.lowest().z - 1);
   EXPECT_EQ(map.layer(0.081), -map.lowest().z + 1);
@@ -119,7 +119,7 @@ TEST(TolerantMap, FindsTheLayerOfAHeight) {
   EXPECT_GE(map.layer(9.0), map.size_z());
 }
 
-TEST(TolerantMap, FillTellsFloorsFromWalls) {
+TEST(DilatedMap, FillTellsFloorsFromWalls) {
   VoxelMap room;
   for (std::int32_t x = 0; x < 100; ++x)
     for (std::int32_t y = 0; y < 100; ++y) {
@@ -127,15 +127,15 @@ TEST(TolerantMap, FillTellsFloorsFromWalls) {
       if (x == 50)
         for (std::int32_t z = 1; z < 60; ++z) room.insert({x, y, z});
     }
-  const TolerantMap map(room, 0.04, 1.0);
+  const DilatedMap map(room, 0.04, 1.0);
   EXPECT_DOUBLE_EQ(map.fill(map.layer(0.03)), 1.0);
   EXPECT_NEAR(map.fill(map.layer(0.5)), 3.0 / 50.0, 0.01);
   EXPECT_EQ(map.fill(-1), 0.0);
   EXPECT_EQ(map.fill(map.size_z()), 0.0);
 }
 
-TEST(TolerantMap, IsEmptyForAnEmptyMap) {
-  const TolerantMap map(VoxelMap(), 0.04, 1.0);
+TEST(DilatedMap, IsEmptyForAnEmptyMap) {
+  const DilatedMap map(VoxelMap(), 0.04, 1.0);
   EXPECT_TRUE(map.empty());
   EXPECT_EQ(map.occupied_cells(), 0);
   EXPECT_EQ(map.window_anywhere(0, 0, 0), 0u);

@@ -4,18 +4,20 @@
 #include <cstring>
 #include <vector>
 
+#include "voxlist/system/check.h"
 #include "voxlist/voxels/voxel_map.h"
 
 namespace voxlist::matching {
 
-/// A map as a whole-map search counts on it: cells of edge e, in layers twice as high (a planar
-/// pose does not move points up or down), that hold an occupied voxel or touch the face of a cell
-/// of edge e that does. So the true pose has nearly all of its points in occupied cells.
+/// A map dilated by one cell, as a whole-map search counts on it: cells of edge e, in layers twice
+/// as high (a planar pose does not move points up or down), that hold an occupied voxel or touch
+/// the face of a cell of edge e that does. So the true pose has nearly all of its points in
+/// occupied cells.
 ///
 /// Readable as windows of 8 x 8 cells, sharp and blurred: in the map of blur b a cell is occupied
 /// when one of the 2^b x 2^b cells from it on is. That takes a bit a cell and blur: 60 x 40 x 2.6 m
 /// at 0.04 m are 30 MB, and margins.
-class TolerantMap {
+class DilatedMap {
  public:
   /// Cells along a window's edge.
   static constexpr std::int32_t kWindow = 8;
@@ -25,7 +27,7 @@ class TolerantMap {
 
   /// `cell_m`: e, a multiple of the map's resolution; doubled until the cells fit into 2^30 bytes.
   /// `reach_m`: how far from the map's box cells may be asked for.
-  TolerantMap(const VoxelMap& map, double cell_m, double reach_m);
+  DilatedMap(const VoxelMap& map, double cell_m, double reach_m);
 
   double cell_m() const { return cell_m_; }
   double layer_m() const { return 2.0 * cell_m_; }
@@ -50,6 +52,7 @@ class TolerantMap {
   /// The place of the window at a cell, which may be outside the box by the reach; its layer must
   /// be inside.
   Place place(std::int32_t x, std::int32_t y, std::int32_t z, std::int32_t blur) const {
+    VOXLIST_CHECK(z >= 0 && z < size_z_ && y >= -margin_ && x >= -margin_, "outside the map");
     const std::int32_t row = (y + margin_) / kWindow;
     const std::int64_t rows = (std::int64_t{blur} * size_z_ + z) * rows_ + row;
     return {static_cast<std::int32_t>(rows * row_bytes_ + x + margin_), (y + margin_) % kWindow};

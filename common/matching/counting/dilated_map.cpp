@@ -1,4 +1,4 @@
-#include "voxlist/matching/counting/tolerant_map.h"
+#include "voxlist/matching/counting/dilated_map.h"
 
 #include <algorithm>
 #include <bit>
@@ -7,7 +7,14 @@
 namespace voxlist::matching {
 namespace {
 
+// Layers are so many cells high. Planar poses do not move points up or down, so height needs no
+// finer cells than what a map's noise and a floor's slope shift points by; half as many layers take
+// half the memory and the time of a dilation.
 constexpr std::int32_t kCellsInLayer = 2;
+
+// Most memory of a map (bytes), so that a byte's place fits 32 bits. Cells of 0.04 m reach it at
+// about 300 x 300 m, 2.6 m high; larger maps get coarser cells.
+constexpr double kMostBytes = 1 << 30;
 
 std::int32_t voxels_in_cell(const VoxelMap& map, double cell_m) {
   return static_cast<std::int32_t>(std::lround(cell_m / map.resolution_m()));
@@ -25,10 +32,9 @@ std::int64_t cells_in(const std::uint8_t* bytes, std::size_t n) {
 
 }  // namespace
 
-TolerantMap::TolerantMap(const VoxelMap& map, double cell_m, double reach_m)
+DilatedMap::DilatedMap(const VoxelMap& map, double cell_m, double reach_m)
     : cell_m_(cell_m), reach_m_(reach_m) {
   if (map.empty()) return;
-  constexpr double kMostBytes = 1 << 30;
   for (measure(map, cell_m_); bytes() > kMostBytes; cell_m_ *= 2.0) measure(map, 2.0 * cell_m_);
   bytes_.assign(static_cast<std::size_t>(bytes()), 0);
   mark_cells(map);
@@ -36,11 +42,11 @@ TolerantMap::TolerantMap(const VoxelMap& map, double cell_m, double reach_m)
   for (std::int32_t blur = 1; blur < kBlurs; ++blur) make_blurred(blur);
 }
 
-std::int32_t TolerantMap::layer(double z_m) const {
+std::int32_t DilatedMap::layer(double z_m) const {
   return static_cast<std::int32_t>(std::floor(z_m / layer_m())) - lowest_.z;
 }
 
-void TolerantMap::measure(const VoxelMap& map, double cell_m) {
+void DilatedMap::measure(const VoxelMap& map, double cell_m) {
   const auto [low, high] = map.bounds().value();
   const std::int32_t factor = voxels_in_cell(map, cell_m);
   // One cell more on each side for the faces, and room for the last cells' windows.
@@ -56,10 +62,11 @@ void TolerantMap::measure(const VoxelMap& map, double cell_m) {
   row_bytes_ = size_x_ + 2 * margin_;
 }
 
-// In double: a map that stretches over the whole lattice has more cells than 64 bits count.
-double TolerantMap::bytes() const { return (double(kBlurs) * size_z_ * rows_ + 2.0) * row_bytes_; }
+// The size is a double: a map that stretches over the whole lattice has more cells than 64 bits
+// count.
+double DilatedMap::bytes() const { return (double(kBlurs) * size_z_ * rows_ + 2.0) * row_bytes_; }
 
-void TolerantMap::mark_cells(const VoxelMap& map) {
+void DilatedMap::mark_cells(const VoxelMap& map) {
   const std::int32_t factor = voxels_in_cell(map, cell_m_);
   const auto mark = [this](std::int32_t x, std::int32_t y, std::int32_t z) {
     const Place at =
@@ -79,7 +86,7 @@ void TolerantMap::mark_cells(const VoxelMap& map) {
   });
 }
 
-void TolerantMap::measure_fill() {
+void DilatedMap::measure_fill() {
   const auto layer_bytes = static_cast<std::size_t>(rows_) * static_cast<std::size_t>(row_bytes_);
   std::vector<std::uint8_t> plan(layer_bytes);
   for (std::int32_t z = 0; z < size_z_; ++z) {
@@ -93,8 +100,9 @@ void TolerantMap::measure_fill() {
   for (double& fill : fill_) fill /= ground;
 }
 
-// From the map of the blur before: the OR of its cells here and half a blur farther, on x and y.
-void TolerantMap::make_blurred(std::int32_t blur) {
+// A blurred map is made from the one of half its blur: each cell is the OR of its cells here and
+// half a blur farther, on x and y.
+void DilatedMap::make_blurred(std::int32_t blur) {
   const std::int32_t step = 1 << (blur - 1);
   const auto row = static_cast<std::size_t>(row_bytes_);
   const std::size_t bytes =
@@ -110,7 +118,7 @@ void TolerantMap::make_blurred(std::int32_t blur) {
                                       along_x[i + row] << (kWindow - step));
 }
 
-std::uint64_t TolerantMap::window_anywhere(std::int32_t x, std::int32_t y, std::int32_t z) const {
+std::uint64_t DilatedMap::window_anywhere(std::int32_t x, std::int32_t y, std::int32_t z) const {
   const std::int32_t far = margin_ - 2 * kWindow;
   const bool near =
       z >= 0 && z < size_z_ && x >= -far && y >= -far && x < size_x_ + far && y < size_y_ + far;
