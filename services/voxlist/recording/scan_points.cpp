@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -31,7 +32,7 @@ Ranges ranges_of(const pointcloud_t& message, const RangeLimits& limits) {
   Ranges ranges;
   for (const auto& row : message.points) {
     if (row.size() != 3) continue;
-    const auto range_m = static_cast<double>(std::hypot(row[0], row[1], row[2]));
+    const auto range_m = Eigen::Vector3d(row[0], row[1], row[2]).norm();
     if (!std::isfinite(range_m)) continue;
     ranges.near += range_m < limits.min_range_m;
     ranges.far += range_m > limits.max_range_m;
