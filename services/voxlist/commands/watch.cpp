@@ -18,6 +18,10 @@
 namespace voxlist::desk {
 namespace {
 
+// A terminal shows one line that is drawn anew; a log or a pipe gets a line now and then, so that
+// a drive of two minutes stays readable.
+constexpr double kRedraw_s = 1.0, kLine_s = 20.0;
+
 struct WatchOptions {
   std::string config, url;
   double seconds = 0.0;
@@ -58,7 +62,7 @@ int run(const WatchOptions& options, Console& console) {
   double next_s = start_s;
   while (!is_over(options, robot, start_s) && bus.handle(std::chrono::milliseconds(100))) {
     if (now_s() < next_s) continue;
-    next_s += console.terminal() ? 1.0 : 5.0;
+    next_s += console.terminal() ? kRedraw_s : kLine_s;
     std::vector<std::string> lines = robot.lines(now_s());
     for (const std::string& trouble : services.troubles(now_s())) lines.push_back("  " + trouble);
     console.show(lines);
