@@ -17,7 +17,7 @@ using Rows = std::vector<std::optional<std::size_t>>;
 // How far a row's time may be from its scan's (us): what rounding to hundredths of a second costs.
 constexpr std::int64_t kSameTime_us = 10'000;
 
-// Of a long list so many are told.
+// Entries of a long list that are told.
 constexpr std::size_t kTold = 5;
 
 std::size_t count(const Rows& rows) {

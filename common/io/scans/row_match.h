@@ -12,7 +12,7 @@ namespace voxlist::io {
 
 /// Which row of a pose table belongs to which scan of a folder.
 struct RowMatch {
-  /// For each scan its row, if there is one.
+  /// Finds each scan's row, if there is one.
   std::vector<std::optional<std::size_t>> rows;
 
   /// What a person should know: rows without a scan, scans without a row, how the table counts.

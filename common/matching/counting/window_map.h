@@ -37,7 +37,7 @@ class WindowMap {
   /// far. Places from before must not be used any more.
   void hold(const CellRectangle& needed);
 
-  /// To be called when these blocks of the map have gained voxels, and none have lost any.
+  /// Tells that these blocks of the map have gained voxels, and none have lost any.
   void map_grew(const std::vector<Voxel>& blocks);
 
   /// Whether a rectangle lies on ground that was held, so that tiles of it can be read.

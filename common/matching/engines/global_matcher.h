@@ -28,7 +28,7 @@ class GlobalMatcher {
     return match(scan, evidence, kModeRatio);
   }
 
-  /// With modes that overlap less.
+  /// Also lists modes that overlap less.
   Match match_rivals(const PreparedScan& scan, const EvidenceMap& evidence) {
     return match(scan, evidence, kRivalRatio);
   }

@@ -7,10 +7,10 @@ namespace voxlist::matching {
 
 /// How well a scan and the map agree at a pose, at most 1 each.
 struct PoseSupport {
-  /// By rays close together: what is near counts most, and so do small things in it. Tells alike
-  /// poses apart.
+  /// Support by rays close together: what is near counts most, and so do small things in it. Tells
+  /// alike poses apart.
   double near = 0.0;
-  /// By rays spread evenly over all surfaces in sight: tells whether the pose can be right at all.
+  /// Support by evenly spread rays: tells whether the pose can be right at all.
   double even = 0.0;
 };
 
