@@ -115,6 +115,11 @@ bool KeyframeReader::is_repeated(const RecordHeader& header) const {
          last_->payload_checksum == header.payload_checksum;
 }
 
+double KeyframeReader::progress() const {
+  return file_.size() == 0 ? 1.0
+                           : static_cast<double>(position_) / static_cast<double>(file_.size());
+}
+
 std::string KeyframeReader::warning() const {
   if (damaged_places_ == 0) return {};
   return fmt::format("{}: damaged in {} {} ({} bytes), which {} left out; {} keyframes are whole",

@@ -26,6 +26,9 @@ class KeyframeReader {
   /// The number for the record after those that were handed out.
   std::uint32_t next_number() const { return next_number_; }
 
+  /// How far it has come in the file, 0..1.
+  double progress() const;
+
   /// What was damaged so far, one line for the log; empty when all was whole.
   std::string warning() const;
 

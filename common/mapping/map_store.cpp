@@ -28,7 +28,9 @@ fs::path made(fs::path folder) {
                           lock_owner(folder / kMapLock)));
 }
 
-FileLock take_lock(const fs::path& folder) try {
+}  // namespace
+
+FileLock lock_folder(const fs::path& folder) try {
   auto lock = FileLock::take(folder / kMapLock);
   if (!lock) refuse(folder);
   return std::move(*lock);
@@ -39,8 +41,6 @@ FileLock take_lock(const fs::path& folder) try {
                                           "changed, set extend = false",
                                           error.what()));
 }
-
-}  // namespace
 
 void refuse_folder_in_use(const fs::path& folder) {
   if (is_locked(folder / kMapLock)) refuse(folder);
@@ -54,7 +54,7 @@ void write_keyframes(const fs::path& folder, std::int64_t map_id,
 }
 
 MapStore::MapStore(const fs::path& folder, std::int64_t new_map_id, const Take& take)
-    : folder_(made(folder)), lock_(take_lock(folder_)) {
+    : folder_(made(folder)), lock_(lock_folder(folder_)) {
   io::remove_stale_temporaries(folder_);
   if (!fs::exists(file())) NewKeyframeFile(file(), new_map_id).commit();
   read(new_map_id, take);

@@ -22,6 +22,10 @@ inline constexpr const char* kMapLock = "mapper.lock";
 /// Throws FileError, which names the process, when a mapper works in the folder now.
 void refuse_folder_in_use(const std::filesystem::path& folder);
 
+/// Takes the lock of a map folder, as the mapper does. Throws FileError when somebody else has it,
+/// or it cannot be written.
+FileLock lock_folder(const std::filesystem::path& folder);
+
 /// Writes a folder's keyframe file anew, in place of one that is there, all or nothing. Throws
 /// FileError.
 void write_keyframes(const std::filesystem::path& folder, std::int64_t map_id,

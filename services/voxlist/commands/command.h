@@ -17,6 +17,8 @@ using Command = std::function<int(Console&)>;
 // becomes the command to run.
 void add_import(CLI::App& program, Command& chosen);
 void add_map(CLI::App& program, Command& chosen);
+void add_extend(CLI::App& program, Command& chosen);
+void add_rebuild(CLI::App& program, Command& chosen);
 void add_localise(CLI::App& program, Command& chosen);
 void add_evaluate(CLI::App& program, Command& chosen);
 void add_info(CLI::App& program, Command& chosen);

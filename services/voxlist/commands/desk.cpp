@@ -69,6 +69,8 @@ int run_desk(std::vector<std::string> arguments, Console& console) {
   Command chosen;
   add_import(program, chosen);
   add_map(program, chosen);
+  add_extend(program, chosen);
+  add_rebuild(program, chosen);
   add_localise(program, chosen);
   add_evaluate(program, chosen);
   add_info(program, chosen);

@@ -5,7 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "services/voxlist/commands/command.h"
-#include "services/voxlist/commands/map_files.h"
+#include "services/voxlist/maps/summary.h"
+#include "services/voxlist/output/console.h"
 #include "services/voxlist/output/stop.h"
 #include "voxlist/io/files/file.h"
 #include "voxlist/mapping/keyframe_reader.h"

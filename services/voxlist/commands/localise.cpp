@@ -7,14 +7,13 @@
 
 #include "services/voxlist/commands/command.h"
 #include "services/voxlist/commands/settings.h"
+#include "services/voxlist/maps/stored_map.h"
 #include "services/voxlist/output/fresh_file.h"
 #include "services/voxlist/output/progress.h"
 #include "services/voxlist/output/stop.h"
 #include "services/voxlist/recording/scan_input.h"
 #include "voxlist/io/files/atomic_file.h"
 #include "voxlist/io/files/file.h"
-#include "voxlist/mapping/keyframe_reader.h"
-#include "voxlist/mapping/map_store.h"
 
 namespace voxlist::desk {
 namespace {
@@ -46,18 +45,6 @@ std::string row(const Located& located) {
   }
   return fmt::format("{},{},{},{:.6f},{:.6f},{:.3f}\n", located.number, name(found.state), pose,
                      overlap_ratio, found.confidence, located.elapsed_ms);
-}
-
-mapping::MapBuilder build(const std::filesystem::path& folder,
-                          const mapping::MapBuilderConfig& config, Console& console) {
-  mapping::KeyframeReader reader(folder / mapping::kKeyframeFile);
-  mapping::MapBuilder builder(config);
-  while (auto keyframe = reader.next()) builder.add(std::move(*keyframe));
-  if (!reader.warning().empty()) console.warn(reader.warning());
-  if (builder.keyframes().empty()) {
-    throw io::FileError(folder, "holds an empty map, make one with voxlist map");
-  }
-  return builder;
 }
 
 Located locate(matching::Localiser& localiser, const Scan& scan) {
@@ -98,8 +85,8 @@ std::string summary(const std::vector<Located>& results) {
 int localise(const LocaliseOptions& options, Console& console) {
   const DeskSettings settings = read_settings(options.config);
   FreshFile file(options.result);
-  const mapping::MapBuilder builder = build(options.map, settings.mapper, console);
-  matching::Localiser localiser(builder.map(), settings.localiser);
+  const StoredMap map = read_map(options.map, settings.mapper, console);
+  matching::Localiser localiser(map.builder.map(), settings.localiser);
   ScanInput input(options.input, console);
   const std::vector<Located> results = locate_all(localiser, input, console);
 

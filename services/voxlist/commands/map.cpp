@@ -6,8 +6,9 @@
 #include <memory>
 
 #include "services/voxlist/commands/command.h"
-#include "services/voxlist/commands/map_files.h"
 #include "services/voxlist/commands/settings.h"
+#include "services/voxlist/maps/map_files.h"
+#include "services/voxlist/maps/map_run.h"
 #include "services/voxlist/output/progress.h"
 #include "services/voxlist/output/stop.h"
 #include "services/voxlist/recording/given_poses.h"
@@ -21,11 +22,8 @@ struct MapOptions {
   std::filesystem::path input;
   std::filesystem::path folder;
   std::filesystem::path poses;
-  std::filesystem::path config;
-  double octomap_resolution_m = 0.0;
-  bool no_octomap = false;
+  MakingOptions making;
   bool force = false;
-  int threads = 0;
 };
 
 // Places all scans by themselves.
@@ -72,6 +70,9 @@ RunFigures make_map(const MapOptions& options, ScanInput& input, MapRun& run, Co
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   figures.input = input.path().string();
   figures.scans = input.scans();
+  figures.placed = std::ssize(run.trajectory());
+  figures.lost = run.lost();
+  figures.ambiguous = run.ambiguous();
   figures.left_out = input.omissions().total();
   figures.seconds = input.seconds();
   figures.interrupted = stop_requested();
@@ -93,14 +94,12 @@ void tell(const MapOptions& options, const MapRun& run, const RunFigures& figure
   console.say((options.folder / "map.png").string());
 }
 
-// A map that the mapper made has no summary. It may be the only one of its place.
+// A map that a robot made or added to may be the only one of its place.
 void refuse_robots_map(const std::filesystem::path& folder) {
-  if (!std::filesystem::exists(folder / mapping::kKeyframeFile) ||
-      std::filesystem::exists(folder / "summary.json"))
-    return;
+  if (!std::filesystem::exists(folder / mapping::kKeyframeFile) || is_of_one_run(folder)) return;
   throw io::FileError(folder,
-                      "holds a map that a robot made: give another folder, or --force to "
-                      "replace it");
+                      "holds a map that a robot or voxlist extend made or added to: give another "
+                      "folder, or --force to replace it");
 }
 
 // Scans that were placed, and still nothing to see.
@@ -111,26 +110,23 @@ bool tell_if_empty(const MapRun& run, Console& console) {
 }
 
 int map(const MapOptions& options, Console& console) {
-  DeskSettings settings = read_settings(options.config);
-  if (options.octomap_resolution_m > 0.0)
-    settings.octomap.resolution_m = options.octomap_resolution_m;
-  if (options.threads > 0) settings.localiser.threads = options.threads;
-
+  const DeskSettings settings = options.making.settings();
   ScanInput input(options.input, console,
                   {settings.mapper.min_range_m, settings.mapper.max_range_m});
   if (!options.force) refuse_robots_map(options.folder);
+  mapping::refuse_folder_in_use(options.folder);
   MapFiles files(options.folder);
   MapRun run(settings.localiser, settings.mapper);
   const RunFigures figures = make_map(options, input, run, console);
-  files.write_map(run);
+  const VoxelMap& voxels = run.builder().map().occupied;
+  files.write_views(voxels, run.trajectory());
+  files.write_keyframes(run.builder());
   tell(options, run, figures, console);
   if (figures.interrupted) console.warn("interrupted: the map ends there");
-  if (options.no_octomap) {
-    files.remove_octomap();
-  } else if (!files.write_octomap(run.builder(), settings.octomap, console)) {
-    console.warn("interrupted: there is no map.bt");
-  }
-  files.write_summary(run, figures);
+  files.write_octomap(settings.octomap, !options.making.no_octomap, console);
+  Summary summary = summary_of(figures);
+  describe(voxels, run.builder().keyframes().size(), summary);
+  files.write_summary(std::move(summary));
   return tell_if_empty(run, console) ? 1 : 0;
 }
 
@@ -143,15 +139,8 @@ void add_options(CLI::App& command, MapOptions& options) {
   command.add_option("--use-poses", options.poses,
                      "table of poses (poses.csv, or a file of TUM, KITTI or EuRoC) to put the "
                      "scans at, instead of localising them");
-  command.add_option("--config", options.config, "the robot's settings (services/robot.toml)");
-  command
-      .add_option("--octomap-resolution", options.octomap_resolution_m,
-                  "edge of map.bt's voxels in metres; default 0.1")
-      ->check(CLI::Range(0.01, 10.0));
-  command.add_flag("--no-octomap", options.no_octomap, "make no map.bt, which is the slow part");
   command.add_flag("--force", options.force, "replace the folder's map also if a robot made it");
-  command.add_option("--threads", options.threads, "most threads; the map does not depend on it")
-      ->check(CLI::Range(1, 1024));
+  options.making.add_to(command);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "services/voxlist/commands/settings.h"
 
+#include <CLI/CLI.hpp>
 #include <stdexcept>
 
 #include "voxlist/config/config.h"
@@ -30,6 +31,24 @@ DeskSettings read_settings(const std::filesystem::path& file) {
 scanner::CloudAssemblerConfig read_scanner_settings(const std::filesystem::path& file) {
   scanner::CloudAssemblerConfig settings;
   read(file, {config::section("cloud_assembler", settings)});
+  return settings;
+}
+
+void MakingOptions::add_to(CLI::App& command) {
+  command.add_option("--config", config, "the robot's settings (services/robot.toml)");
+  command
+      .add_option("--octomap-resolution", octomap_resolution_m,
+                  "edge of map.bt's voxels in metres; default 0.1")
+      ->check(CLI::Range(0.01, 10.0));
+  command.add_flag("--no-octomap", no_octomap, "make no map.bt, which is the slow part");
+  command.add_option("--threads", threads, "most threads; the map does not depend on it")
+      ->check(CLI::Range(1, 1024));
+}
+
+DeskSettings MakingOptions::settings() const {
+  DeskSettings settings = read_settings(config);
+  if (octomap_resolution_m > 0.0) settings.octomap.resolution_m = octomap_resolution_m;
+  if (threads > 0) settings.localiser.threads = threads;
   return settings;
 }
 

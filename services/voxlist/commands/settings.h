@@ -7,6 +7,10 @@
 #include "voxlist/planning/octomap.h"
 #include "voxlist/scanner/sweep/cloud_assembler_config.h"
 
+namespace CLI {
+class App;
+}
+
 namespace voxlist::desk {
 
 /// What the desk tool takes from a robot's settings file, so that it maps as the robot does.
@@ -22,5 +26,20 @@ DeskSettings read_settings(const std::filesystem::path& file);
 
 /// The same for the table [cloud_assembler].
 scanner::CloudAssemblerConfig read_scanner_settings(const std::filesystem::path& file);
+
+/// Options of the commands that make maps.
+struct MakingOptions {
+  std::filesystem::path config;
+  double octomap_resolution_m = 0.0;
+  bool no_octomap = false;
+  int threads = 0;
+
+  /// Adds them to a command. They must outlive it.
+  void add_to(CLI::App& command);
+
+  /// The settings of the robot's file, with what the options say otherwise. Throws as
+  /// read_settings.
+  DeskSettings settings() const;
+};
 
 }  // namespace voxlist::desk

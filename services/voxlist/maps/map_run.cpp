@@ -1,4 +1,4 @@
-#include "services/voxlist/commands/map_run.h"
+#include "services/voxlist/maps/map_run.h"
 
 #include <utility>
 
@@ -14,13 +14,18 @@ void MapRun::localise(Scan scan) {
   const Pose3 T_map_base = to_pose3(pose);
   trajectory_.push_back({scan.cloud.utime_us, T_map_base});
   if (!builder_.wants(pose)) return;
-  builder_.add({T_map_base, std::move(scan.cloud)});
+  add({T_map_base, std::move(scan.cloud)});
   localiser_.map_grew(builder_.changed_blocks());
 }
 
 void MapRun::place(Scan scan, const Pose3& T_map_base) {
   trajectory_.push_back({scan.cloud.utime_us, T_map_base});
-  builder_.add({T_map_base, std::move(scan.cloud)});
+  add({T_map_base, std::move(scan.cloud)});
+}
+
+void MapRun::add(mapping::Keyframe keyframe) {
+  if (keep_) keep_(keyframe);
+  builder_.add(std::move(keyframe));
 }
 
 }  // namespace voxlist::desk

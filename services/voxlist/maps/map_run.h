@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <utility>
 #include <vector>
 
 #include "services/voxlist/recording/scan_input.h"
@@ -13,8 +15,15 @@ namespace voxlist::desk {
 /// Equal scans give an equal map.
 class MapRun {
  public:
+  /// Is given each keyframe before it goes into the map.
+  using Keep = std::function<void(const mapping::Keyframe&)>;
+
   MapRun(const matching::LocaliserConfig& localiser, const mapping::MapBuilderConfig& mapper)
       : builder_(mapper), localiser_(builder_.map(), localiser) {}
+
+  /// Goes on with a map that is there.
+  MapRun(const matching::LocaliserConfig& localiser, mapping::MapBuilder map, Keep keep)
+      : builder_(std::move(map)), keep_(std::move(keep)), localiser_(builder_.map(), localiser) {}
 
   /// Finds the scan's pose, and adds the scan to the map if it is sure and the robot has moved.
   void localise(Scan scan);
@@ -32,7 +41,10 @@ class MapRun {
   std::int64_t ambiguous() const { return ambiguous_; }
 
  private:
+  void add(mapping::Keyframe keyframe);
+
   mapping::MapBuilder builder_;
+  const Keep keep_;
   matching::Localiser localiser_;
   std::vector<StampedPose3> trajectory_;
   std::int64_t lost_ = 0, ambiguous_ = 0;

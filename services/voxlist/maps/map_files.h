@@ -1,0 +1,42 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "services/voxlist/maps/summary.h"
+#include "services/voxlist/output/console.h"
+#include "services/voxlist/output/fresh_file.h"
+#include "voxlist/geometry/cloud.h"
+#include "voxlist/mapping/map_builder.h"
+#include "voxlist/planning/octomap.h"
+
+namespace voxlist::desk {
+
+/// The files of a map folder. Each is replaced as a whole or not at all, the summary last; files of
+/// others are left alone.
+class MapFiles {
+ public:
+  /// Makes the folder. Throws FileError when nothing can be written there.
+  explicit MapFiles(std::filesystem::path folder);
+
+  /// Writes the keyframes. Throws FileError.
+  void write_keyframes(const mapping::MapBuilder& builder) const;
+
+  /// Writes trajectory, voxels and picture. Throws FileError.
+  void write_views(const VoxelMap& map, const std::vector<StampedPose3>& trajectory) const;
+
+  /// Writes the OctoMap of the folder's keyframes, or takes the old one away where none is wanted
+  /// or after Ctrl-C.
+  void write_octomap(const planning::OctomapConfig& config, bool wanted, Console& console) const;
+
+  /// Writes the summary: the folder is whole.
+  void write_summary(Summary summary);
+
+ private:
+  void remove_octomap() const;
+
+  const std::filesystem::path folder_;
+  FreshFile summary_;
+};
+
+}  // namespace voxlist::desk
