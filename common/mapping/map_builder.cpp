@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "voxlist/geometry/range.h"
+#include "voxlist/voxels/scan_news.h"
 
 namespace voxlist::mapping {
 namespace {
@@ -23,16 +24,22 @@ void remove_near(Cloud& cloud, double min_range_m) {
 
 }  // namespace
 
-bool MapBuilder::wants(const Pose2& pose) const {
+bool MapBuilder::has_moved(const Pose2& pose) const {
+  return distance_m(pose, looked_at_) >= config_.min_distance_m ||
+         turn_rad(pose, looked_at_) >= config_.min_turn_deg * std::numbers::pi / 180.0;
+}
+
+bool MapBuilder::wants(const Cloud& cloud, const Pose2& pose) {
   if (keyframes_.empty()) return true;
-  const Pose2 last = to_pose2(keyframes_.back().T_map_base);
-  return distance_m(pose, last) >= config_.min_distance_m ||
-         turn_rad(pose, last) >= config_.min_turn_deg * std::numbers::pi / 180.0;
+  if (!has_moved(pose)) return false;
+  looked_at_ = pose;
+  return scan_news(cloud, to_pose3(pose), config_.max_range_m, map_).share() >= config_.min_news;
 }
 
 void MapBuilder::add(Keyframe keyframe) {
   remove_near(keyframe.cloud, config_.min_range_m);
   changed_blocks_ = add_scan(keyframe.cloud, keyframe.T_map_base, config_.max_range_m, map_);
+  looked_at_ = to_pose2(keyframe.T_map_base);
   keyframes_.push_back(std::move(keyframe));
 }
 

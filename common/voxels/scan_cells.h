@@ -23,6 +23,22 @@ class ScanCells {
   /// tile in the order in which they were met. No cells are left here.
   void move_to(VoxelMap& map, std::vector<Voxel>& changed);
 
+  /// Calls visit(block position, bits) for each block with cells, tile by tile.
+  template <class Visit>
+  void for_each_block(const Visit& visit) const {
+    for (std::size_t t = 0; t < tiles_.size(); ++t) {
+      const Voxel& at = positions_.key(t);
+      for (std::int32_t i = 0; i < 512; ++i) {
+        const VoxelBlock& bits = (*tiles_[t])[static_cast<std::size_t>(i)];
+        if (bits == VoxelBlock{}) continue;
+        visit(Voxel{at.x * 8 + (i & 7), at.y * 8 + (i >> 3 & 7), at.z * 8 + (i >> 6)}, bits);
+      }
+    }
+  }
+
+  /// No cells are left.
+  void clear();
+
   /// Bytes held: 32 kB a tile.
   std::size_t memory_bytes() const { return tiles_.size() * sizeof(Tile); }
 

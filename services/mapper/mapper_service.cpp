@@ -124,7 +124,7 @@ void MapperService::take_localisation(const localisation_t& message) {
   const std::int64_t before = version();
   if (const auto pose = pose_of(message)) {
     trajectory_.push_back({message.utime, to_pose3(*pose)});
-    if (config_.extend && builder_.wants(*pose)) add(message.utime, *pose);
+    if (config_.extend) add(message.utime, *pose);
   }
   send_change(before);
 }
@@ -133,6 +133,7 @@ void MapperService::add(std::int64_t utime_us, const Pose2& pose) {
   const auto cloud = std::find_if(recent_clouds_.begin(), recent_clouds_.end(),
                                   [&](const Cloud& c) { return c.utime_us == utime_us; });
   if (cloud == recent_clouds_.end()) return health_.count("LOCALISATION/cloud_missing");
+  if (!builder_.wants(*cloud, pose)) return;
   builder_.add({to_pose3(pose), std::move(*cloud)});
   recent_clouds_.erase(recent_clouds_.begin(), cloud + 1);
   health_.count("keyframes");

@@ -76,7 +76,7 @@ std::vector<Figure> run(const simulation::BuildingConfig& config, double length_
     end_rad = turn_rad(pose, truth);
     worst_m = std::max(worst_m, end_m);
     start_ms = cpu_ms();
-    if (map.wants(pose)) {
+    if (map.wants(scan, pose)) {
       map.add({to_pose3(pose), scan});
       localiser.map_grew(map.changed_blocks());
     }

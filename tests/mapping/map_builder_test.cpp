@@ -12,13 +12,34 @@ Keyframe keyframe_at(const Pose2& pose, std::vector<Eigen::Vector3f> points) {
   return keyframe;
 }
 
+// A wall, 2 m ahead of base.
+Cloud wall() {
+  Cloud cloud;
+  for (int i = 0; i < 200; ++i) cloud.points.emplace_back(2.f, 0.03f * float(i), 0.5f);
+  return cloud;
+}
+
 TEST(MapBuilder, WantsTheFirstCloudAndThenThoseThatMovedEnough) {
   MapBuilder builder;
-  EXPECT_TRUE(builder.wants({}));
-  builder.add(keyframe_at({}, {{1.f, 0.f, 0.f}}));
-  EXPECT_FALSE(builder.wants({0.1, 0.1, 0.1}));
-  EXPECT_TRUE(builder.wants({0.31, 0.0, 0.0}));
-  EXPECT_TRUE(builder.wants({0.0, 0.0, -0.25}));
+  EXPECT_TRUE(builder.wants(wall(), {}));
+  builder.add({to_pose3(Pose2{}), wall()});
+  EXPECT_FALSE(builder.wants(wall(), {0.1, 0.1, 0.1}));
+  EXPECT_TRUE(builder.wants(wall(), {0.31, 0.0, 0.0}));
+  EXPECT_FALSE(builder.wants(wall(), {0.4, 0.0, 0.0})) << "only 0.09 m after the last look";
+  EXPECT_TRUE(builder.wants(wall(), {0.4, 0.0, -0.25}));
+}
+
+TEST(MapBuilder, WantsNoCloudThatTellsNothingNew) {
+  MapBuilder builder;
+  for (const double x_m : {0.0, 1.0}) builder.add({to_pose3({x_m, 0.0, 0.0}), wall()});
+  EXPECT_FALSE(builder.wants(wall(), {0.0, 0.0, 0.0}));
+  EXPECT_TRUE(builder.wants(wall(), {-1.0, 0.0, 0.0})) << "the wall stands 1 m nearer now";
+}
+
+TEST(MapBuilder, WantsWhatMovedWhereNoNewsAreAskedFor) {
+  MapBuilder builder({.min_news = 0.0});
+  for (const double x_m : {0.0, 1.0}) builder.add({to_pose3({x_m, 0.0, 0.0}), wall()});
+  EXPECT_TRUE(builder.wants(wall(), {0.0, 0.0, 0.0}));
 }
 
 TEST(MapBuilder, PutsPointsWhereTheirPoseSays) {

@@ -13,7 +13,7 @@ void MapRun::localise(Scan scan) {
   const Pose2& pose = result.modes.front().T_map_base;
   const Pose3 T_map_base = to_pose3(pose);
   trajectory_.push_back({scan.cloud.utime_us, T_map_base});
-  if (!builder_.wants(pose)) return;
+  if (!builder_.wants(scan.cloud, pose)) return;
   add({T_map_base, std::move(scan.cloud)});
   localiser_.map_grew(builder_.changed_blocks());
 }

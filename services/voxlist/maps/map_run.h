@@ -25,7 +25,8 @@ class MapRun {
   MapRun(const matching::LocaliserConfig& localiser, mapping::MapBuilder map, Keep keep)
       : builder_(std::move(map)), keep_(std::move(keep)), localiser_(builder_.map(), localiser) {}
 
-  /// Finds the scan's pose, and adds the scan to the map if it is sure and the robot has moved.
+  /// Finds the scan's pose, and adds the scan to the map if it is sure and the scan tells
+  /// something new.
   void localise(Scan scan);
 
   /// Adds the scan to the map at a pose that is known.
