@@ -51,12 +51,19 @@ std::optional<Keyframe> KeyframeReader::next() {
     last_ = record->header;
     next_number_ = std::max(next_number_, record->header.number) + 1;
     if (!record->keyframe) continue;
+    place_ = {record->start, record->end - record->start};
     ++whole_;
     return std::move(record->keyframe);
   }
   note_gap(file_.size());
   position_ = file_.size();
   return std::nullopt;
+}
+
+std::optional<Keyframe> KeyframeReader::at(const KeyframePlace& place) {
+  if (place.start + place.bytes > file_.size()) file_.refresh();
+  auto record = record_at(place.start);
+  return record ? std::move(record->keyframe) : std::nullopt;
 }
 
 std::optional<RecordHeader> KeyframeReader::header_at(std::uint64_t offset) {

@@ -10,6 +10,12 @@
 
 namespace voxlist::mapping {
 
+/// Where in a file a keyframe's record lies.
+struct KeyframePlace {
+  std::uint64_t start = 0;
+  std::uint64_t bytes = 0;
+};
+
 /// Hands out the keyframes of a file one by one, in memory for one of them. After any damage it
 /// goes on with the next whole record: a flipped bit costs at most the record that it is in.
 class KeyframeReader {
@@ -19,6 +25,14 @@ class KeyframeReader {
 
   /// The next whole keyframe; nothing at the end. Throws FileError when the disk cannot be read.
   std::optional<Keyframe> next();
+
+  /// Where in the file the keyframe lies that next() handed out last.
+  KeyframePlace place() const { return place_; }
+
+  /// The keyframe at a place, also of one that was appended after the opening; nothing when it is
+  /// no longer whole. next() does not go on from there. Throws FileError when the disk cannot be
+  /// read.
+  std::optional<Keyframe> at(const KeyframePlace& place);
 
   /// The map's id; nothing in a file that is too short to hold one.
   std::optional<std::int64_t> map_id() const { return map_id_; }
@@ -53,6 +67,7 @@ class KeyframeReader {
   std::optional<std::int64_t> map_id_;
   bool first_format_ = false;
   std::uint64_t position_ = 0;
+  KeyframePlace place_;
   std::optional<RecordHeader> last_;
   std::uint32_t next_number_ = 0;
   std::uint64_t whole_ = 0;

@@ -21,15 +21,6 @@ namespace {
   throw std::runtime_error(fmt::format("{}: {}", doing, std::strerror(errno)));
 }
 
-void write_all(int file, std::string_view bytes) {
-  while (!bytes.empty()) {
-    const ssize_t written = ::write(file, bytes.data(), bytes.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) fail("cannot write a keyframe");
-    bytes.remove_prefix(static_cast<std::size_t>(written));
-  }
-}
-
 struct stat info_of(int file) {
   struct stat info {};
   if (::fstat(file, &info) != 0) fail("cannot be looked at");
@@ -43,8 +34,22 @@ NewKeyframeFile::NewKeyframeFile(const std::filesystem::path& file, std::int64_t
   file_.write(file_header(map_id));
 }
 
-void NewKeyframeFile::add(const Keyframe& keyframe) {
-  file_.write(encode_record(keyframe, map_id_, number_++));
+KeyframePlace NewKeyframeFile::add(const Keyframe& keyframe) {
+  const std::string record = encode_record(keyframe, map_id_, number_++);
+  file_.write(record);
+  const KeyframePlace place{bytes_, record.size()};
+  bytes_ += record.size();
+  return place;
+}
+
+bool write_all(int file, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(file, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) return false;
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return true;
 }
 
 KeyframeWriter::KeyframeWriter(const std::filesystem::path& file, std::int64_t map_id,
@@ -60,10 +65,11 @@ KeyframeWriter::KeyframeWriter(const std::filesystem::path& file, std::int64_t m
 
 // What failed is cut off again. Where even that fails, a torn record stays, which the reader steps
 // over. After a failed sync the system may have dropped what was written, so that goes, too.
-void KeyframeWriter::append(const Keyframe& keyframe) try {
+KeyframePlace KeyframeWriter::append(const Keyframe& keyframe) try {
   const std::int64_t before = info_of(file_.get()).st_size;
+  const std::string record = encode_record(keyframe, map_id_, next_number_);
   try {
-    write_all(file_.get(), encode_record(keyframe, map_id_, next_number_));
+    if (!write_all(file_.get(), record)) fail("cannot write a keyframe");
     if (::fdatasync(file_.get()) != 0) fail("cannot bring a keyframe to the disk");
   } catch (const std::runtime_error&) {
     [[maybe_unused]] const int torn = ::ftruncate(file_.get(), before);
@@ -71,6 +77,7 @@ void KeyframeWriter::append(const Keyframe& keyframe) try {
   }
   size_ = info_of(file_.get()).st_size;
   ++next_number_;
+  return {static_cast<std::uint64_t>(before), record.size()};
 } catch (const std::runtime_error& failure) {
   throw io::FileError(path_, failure.what() + std::string("; the keyframes before it are safe"));
 }

@@ -2,9 +2,10 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string_view>
 
 #include "voxlist/io/files/atomic_file.h"
-#include "voxlist/mapping/map_builder.h"
+#include "voxlist/mapping/keyframe_reader.h"
 #include "voxlist/system/file_descriptor.h"
 
 namespace voxlist::mapping {
@@ -15,7 +16,8 @@ class NewKeyframeFile {
  public:
   NewKeyframeFile(const std::filesystem::path& file, std::int64_t map_id);
 
-  void add(const Keyframe& keyframe);
+  /// Returns where it lies in the file.
+  KeyframePlace add(const Keyframe& keyframe);
 
   /// Brings all to the disk and puts it in place.
   void commit() { file_.commit(); }
@@ -24,7 +26,11 @@ class NewKeyframeFile {
   io::AtomicFile file_;
   std::int64_t map_id_;
   std::uint32_t number_ = 0;
+  std::uint64_t bytes_ = kFileHeaderBytes;
 };
+
+/// Writes all bytes to a file descriptor. False, with errno, when it cannot.
+bool write_all(int file, std::string_view bytes);
 
 /// Appends keyframes to a file, each to the disk before the next one.
 class KeyframeWriter {
@@ -33,9 +39,10 @@ class KeyframeWriter {
   /// FileError.
   KeyframeWriter(const std::filesystem::path& file, std::int64_t map_id, std::uint32_t next_number);
 
-  /// Returns when the keyframe would survive a power cut. Throws FileError (full disk): then the
-  /// file holds what it held before, and the same keyframe can be appended again.
-  void append(const Keyframe& keyframe);
+  /// Returns when the keyframe would survive a power cut, and where it lies in the file. Throws
+  /// FileError (full disk): then the file holds what it held before, and the same keyframe can be
+  /// appended again.
+  KeyframePlace append(const Keyframe& keyframe);
 
   /// Whether the file is still where it was opened, and nobody has cut it.
   bool is_in_place() const;

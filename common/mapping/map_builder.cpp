@@ -30,17 +30,18 @@ bool MapBuilder::has_moved(const Pose2& pose) const {
 }
 
 bool MapBuilder::wants(const Cloud& cloud, const Pose2& pose) {
-  if (keyframes_.empty()) return true;
+  if (poses_.empty()) return true;
   if (!has_moved(pose)) return false;
   looked_at_ = pose;
   return scan_news(cloud, to_pose3(pose), config_.max_range_m, map_).share() >= config_.min_news;
 }
 
-void MapBuilder::add(Keyframe keyframe) {
+Keyframe MapBuilder::add(Keyframe keyframe) {
   remove_near(keyframe.cloud, config_.min_range_m);
   changed_blocks_ = add_scan(keyframe.cloud, keyframe.T_map_base, config_.max_range_m, map_);
   looked_at_ = to_pose2(keyframe.T_map_base);
-  keyframes_.push_back(std::move(keyframe));
+  poses_.push_back({keyframe.cloud.utime_us, keyframe.T_map_base});
+  return keyframe;
 }
 
 }  // namespace voxlist::mapping

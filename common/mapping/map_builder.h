@@ -43,7 +43,7 @@ struct MapBuilderConfig {
 };
 
 /// Builds the map of what is occupied and what rays passed from clouds whose pose is known.
-/// Keyframes are the truth, the map is a view of them.
+/// Keyframes are the truth, the map is a view of them. Their points are not kept here.
 class MapBuilder {
  public:
   explicit MapBuilder(const MapBuilderConfig& config = {}) : config_(config) {}
@@ -53,11 +53,13 @@ class MapBuilder {
   bool wants(const Cloud& cloud, const Pose2& pose);
 
   /// Puts a keyframe into the map, whatever wants() says; without its points nearer than
-  /// min_range_m.
-  void add(Keyframe keyframe);
+  /// min_range_m. Returns it as it is in the map, for whoever keeps it: here only its pose is.
+  Keyframe add(Keyframe keyframe);
 
   const OccupancyMap& map() const { return map_; }
-  const std::vector<Keyframe>& keyframes() const { return keyframes_; }
+
+  /// When and where each keyframe was taken, in their order.
+  const std::vector<StampedPose3>& poses() const { return poses_; }
 
   /// What the last add() changed.
   const ChangedBlocks& changed_blocks() const { return changed_blocks_; }
@@ -67,7 +69,7 @@ class MapBuilder {
 
   const MapBuilderConfig config_;
   OccupancyMap map_;
-  std::vector<Keyframe> keyframes_;
+  std::vector<StampedPose3> poses_;
   ChangedBlocks changed_blocks_;
   Pose2 looked_at_;  // where the last cloud was added or looked at
 };

@@ -46,13 +46,6 @@ void refuse_folder_in_use(const fs::path& folder) {
   if (is_locked(folder / kMapLock)) refuse(folder);
 }
 
-void write_keyframes(const fs::path& folder, std::int64_t map_id,
-                     const std::vector<Keyframe>& keyframes) {
-  NewKeyframeFile file(made(folder) / kKeyframeFile, map_id);
-  for (const Keyframe& keyframe : keyframes) file.add(keyframe);
-  file.commit();
-}
-
 MapStore::MapStore(const fs::path& folder, std::int64_t new_map_id, const Take& take)
     : folder_(made(folder)), lock_(lock_folder(folder_)) {
   io::remove_stale_temporaries(folder_);
@@ -62,20 +55,27 @@ MapStore::MapStore(const fs::path& folder, std::int64_t new_map_id, const Take& 
 
 void MapStore::read(std::int64_t new_map_id, const Take& take) {
   KeyframeReader reader(file());
-  while (auto keyframe = reader.next()) take(std::move(*keyframe));
+  std::vector<KeyframePlace> places;
+  while (auto keyframe = reader.next()) {
+    places.push_back(reader.place());
+    take(std::move(*keyframe));
+  }
   map_id_ = reader.map_id().value_or(new_map_id);
   notice_ = reader.warning();
-  if (!notice_.empty()) mend();
+  if (!notice_.empty()) mend(places);
   writer_ = std::make_unique<KeyframeWriter>(file(), map_id_, reader.next_number());
+  keyframes_ = std::make_unique<StoredKeyframes>(file(), std::move(places));
 }
 
 // A file that cannot be written anew, for want of room, stays: the reader steps over its damage.
-void MapStore::mend() try {
+void MapStore::mend(std::vector<KeyframePlace>& places) try {
   KeyframeReader reader(file());
   NewKeyframeFile whole(file(), map_id_);
-  while (const auto keyframe = reader.next()) whole.add(*keyframe);
+  std::vector<KeyframePlace> new_places;
+  while (const auto keyframe = reader.next()) new_places.push_back(whole.add(*keyframe));
   const fs::path aside = io::keep_aside(file(), ".damaged");
   whole.commit();
+  places = std::move(new_places);
   notice_ += fmt::format("; the damaged file is kept as {}", aside.filename().string());
 } catch (const io::FileError& error) {
   notice_ += fmt::format("; it stays in use, because {}", error.what());

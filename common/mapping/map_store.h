@@ -4,7 +4,9 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "voxlist/mapping/keyframe_writer.h"
@@ -26,10 +28,29 @@ void refuse_folder_in_use(const std::filesystem::path& folder);
 /// or it cannot be written.
 FileLock lock_folder(const std::filesystem::path& folder);
 
-/// Writes a folder's keyframe file anew, in place of one that is there, all or nothing. Throws
-/// FileError.
-void write_keyframes(const std::filesystem::path& folder, std::int64_t map_id,
-                     const std::vector<Keyframe>& keyframes);
+/// The keyframes of a file, by their index: on the disk, one at a time in memory. They can be read
+/// even after the file was removed.
+class StoredKeyframes {
+ public:
+  StoredKeyframes(const std::filesystem::path& file, std::vector<KeyframePlace> places)
+      : reader_(file), places_(std::move(places)) {}
+
+  std::size_t size() const { return places_.size(); }
+
+  /// Bytes of a keyframe in the file.
+  std::uint64_t bytes(std::size_t index) const { return places_[index].bytes; }
+
+  /// A keyframe; nothing when its record was damaged or cut off meanwhile. Throws FileError when
+  /// the disk cannot be read.
+  std::optional<Keyframe> read(std::size_t index) { return reader_.at(places_[index]); }
+
+  /// One more was appended to the file.
+  void add(const KeyframePlace& place) { places_.push_back(place); }
+
+ private:
+  KeyframeReader reader_;
+  std::vector<KeyframePlace> places_;
+};
 
 /// A map folder that keyframes are added to: its lock, and its keyframe file. Nothing that was in
 /// the file is ever lost: a damaged file is kept aside under a name of its own
@@ -50,7 +71,10 @@ class MapStore {
   const std::string& notice() const { return notice_; }
 
   /// As KeyframeWriter::append.
-  void append(const Keyframe& keyframe) { writer_->append(keyframe); }
+  void append(const Keyframe& keyframe) { keyframes_->add(writer_->append(keyframe)); }
+
+  /// What is on the disk.
+  StoredKeyframes& keyframes() { return *keyframes_; }
 
   /// False when the folder or its file was removed, replaced or cut under us.
   bool is_in_place() const { return writer_->is_in_place(); }
@@ -58,13 +82,14 @@ class MapStore {
  private:
   std::filesystem::path file() const { return folder_ / kKeyframeFile; }
   void read(std::int64_t new_map_id, const Take& take);
-  void mend();
+  void mend(std::vector<KeyframePlace>& places);
 
   std::filesystem::path folder_;
   FileLock lock_;
   std::int64_t map_id_ = 0;
   std::string notice_;
   std::unique_ptr<KeyframeWriter> writer_;
+  std::unique_ptr<StoredKeyframes> keyframes_;
 };
 
 }  // namespace voxlist::mapping

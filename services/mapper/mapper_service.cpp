@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <filesystem>
 #include <stdexcept>
 #include <voxlist/health_t.hpp>
 #include <voxlist/keyframe_t.hpp>
@@ -20,8 +19,6 @@
 #include "voxlist/bus/health.h"
 #include "voxlist/bus/map_convert.h"
 #include "voxlist/io/files/file.h"
-#include "voxlist/io/files/keep_aside.h"
-#include "voxlist/mapping/keyframe_reader.h"
 #include "voxlist/mapping/map_views.h"
 #include "voxlist/system/state_folder.h"
 
@@ -32,9 +29,6 @@ namespace {
 // oldest is forgotten, and a keyframe is missed.
 constexpr std::size_t kRecentClouds = 16;
 
-// Bytes of a point on its way in KEYFRAME: three floats, and three of its ray's origin.
-constexpr std::size_t kPointBytes = 24;
-
 // Time from one save on request to the next (us): the map's picture takes a while, and anyone may
 // ask.
 constexpr std::int64_t kSavePause_us = 1'000'000;
@@ -44,10 +38,6 @@ constexpr std::int64_t kSecond_us = 1'000'000;
 // How often the folder is looked at, and what could not be written is tried again: a folder that is
 // gone is told within a second.
 constexpr std::int64_t kLookPeriod_us = kSecond_us / 2;
-
-// Keyframes that are written at once, of those that wait for a disk that works again: each takes it
-// 5 ms, and nothing else is done meanwhile.
-constexpr std::size_t kStoredAtOnce = 50;
 
 // Silence after which another mapper is gone; its HEALTH comes once a second.
 constexpr std::int64_t kRivalGone_us = 3 * kSecond_us;
@@ -72,10 +62,11 @@ MapperService::MapperService(bus::Bus& bus, bus::Health& health, const MapperSer
     : bus_(bus),
       health_(health),
       config_(config),
-      folder_(in_state_folder(config.folder)),
       builder_(config.builder),
-      map_id_(new_map_id()) {
-  load();
+      keyframes_(health, in_state_folder(config.folder), config.extend, new_map_id(),
+                 builder_.poses(),
+                 [this](mapping::Keyframe keyframe) { restore(std::move(keyframe)); }),
+      map_id_(keyframes_.map_id()) {
   bus_.subscribe(bus::kCloud, [this](const pointcloud_t& message) { take_cloud(message); });
   bus_.subscribe(bus::kLocalisation,
                  [this](const localisation_t& message) { take_localisation(message); });
@@ -83,31 +74,8 @@ MapperService::MapperService(bus::Bus& bus, bus::Health& health, const MapperSer
   bus_.subscribe(bus::kHealth, [this](const health_t& message) { take_health(message); });
 }
 
-void MapperService::load() {
-  if (folder_.empty()) return;
-  if (!config_.extend) return serve_only();
-  store_ = std::make_unique<mapping::MapStore>(
-      folder_, map_id_, [this](mapping::Keyframe keyframe) { restore(std::move(keyframe)); });
-  map_id_ = store_->map_id();
-  stored_ = builder_.keyframes().size();
-  health_.raise("damage", bus::Health::State::kWarning, store_->notice());
-}
-
-void MapperService::serve_only() {
-  const auto file = folder_ / mapping::kKeyframeFile;
-  if (!std::filesystem::exists(file)) {
-    return health_.raise(
-        "folder", bus::Health::State::kWarning,
-        folder_.string() + " holds no map to serve; set extend = true to make one");
-  }
-  mapping::KeyframeReader reader(file);
-  while (auto keyframe = reader.next()) restore(std::move(*keyframe));
-  map_id_ = reader.map_id().value_or(map_id_);
-  health_.raise("damage", bus::Health::State::kWarning, reader.warning());
-}
-
 void MapperService::restore(mapping::Keyframe keyframe) {
-  trajectory_.push_back({keyframe.cloud.utime_us, keyframe.T_map_base});
+  path_.restore({keyframe.cloud.utime_us, keyframe.T_map_base});
   builder_.add(std::move(keyframe));
 }
 
@@ -123,8 +91,8 @@ void MapperService::take_localisation(const localisation_t& message) {
   decided_utime_us_ = message.utime;
   const std::int64_t before = version();
   if (const auto pose = pose_of(message)) {
-    trajectory_.push_back({message.utime, to_pose3(*pose)});
-    if (config_.extend) add(message.utime, *pose);
+    path_.add({message.utime, *pose});
+    if (config_.extend && keyframes_.has_room()) add(message.utime, *pose);
   }
   send_change(before);
 }
@@ -134,11 +102,11 @@ void MapperService::add(std::int64_t utime_us, const Pose2& pose) {
                                   [&](const Cloud& c) { return c.utime_us == utime_us; });
   if (cloud == recent_clouds_.end()) return health_.count("LOCALISATION/cloud_missing");
   if (!builder_.wants(*cloud, pose)) return;
-  builder_.add({to_pose3(pose), std::move(*cloud)});
+  keyframes_.add(builder_.add({to_pose3(pose), std::move(*cloud)}));
+  path_.mark_keyframe();
   recent_clouds_.erase(recent_clouds_.begin(), cloud + 1);
   health_.count("keyframes");
-  store_keyframes(kStoredAtOnce);
-  send_keyframes(builder_.keyframes().size() - 1);
+  send_keyframes(keyframes_.size() - 1);
 }
 
 void MapperService::take_request(const map_request_t& message) {
@@ -184,18 +152,18 @@ void MapperService::send_change(std::int64_t base_version) {
 }
 
 void MapperService::send_keyframes(std::size_t first) {
-  for (std::size_t i = first; i < builder_.keyframes().size(); ++i) {
-    const mapping::Keyframe& keyframe = builder_.keyframes()[i];
-    const std::size_t bytes = kPointBytes * keyframe.cloud.points.size();
-    const bool queued = sender_.push(bytes, [this, i] {
-      const mapping::Keyframe& k = builder_.keyframes()[i];
-      bus_.publish(bus::kKeyframe,
-                   bus::to_message(bus::PosedCloud{map_id_, static_cast<std::int32_t>(i),
-                                                   k.T_map_base, k.cloud}));
-    });
+  for (std::size_t i = first; i < keyframes_.size(); ++i) {
     // The listener asks again for what did not fit.
-    if (!queued) return health_.count("KEYFRAME/queue_full");
+    if (!sender_.push(keyframes_.bytes(i), [this, i] { send_keyframe(i); }))
+      return health_.count("KEYFRAME/queue_full");
   }
+}
+
+void MapperService::send_keyframe(std::size_t index) {
+  const mapping::Keyframe keyframe = keyframes_.read(index);
+  bus_.publish(bus::kKeyframe,
+               bus::to_message(bus::PosedCloud{map_id_, static_cast<std::int32_t>(index),
+                                               keyframe.T_map_base, keyframe.cloud}));
 }
 
 void MapperService::resend_keyframes(std::size_t first) {
@@ -226,72 +194,28 @@ void MapperService::tick(std::int64_t now_us) {
   }
   if (last_look_us_ && now_us - *last_look_us_ < kLookPeriod_us) return;
   last_look_us_ = now_us;
-  look_after_folder();
-}
-
-void MapperService::look_after_folder() {
-  if (!store_) return;
-  if (!store_->is_in_place()) {
-    move_to_fresh_folder();
-  } else if (stored_ < builder_.keyframes().size()) {
-    store_keyframes(kStoredAtOnce);
-  }
-}
-
-void MapperService::move_to_fresh_folder() try {
-  const auto lost = store_->folder();
-  const auto fresh = io::free_name(folder_, ".recovered");
-  const auto& keyframes = builder_.keyframes();
-  mapping::write_keyframes(fresh, map_id_, keyframes);
-  store_ = std::make_unique<mapping::MapStore>(fresh, map_id_, [](const mapping::Keyframe&) {});
-  stored_ = keyframes.size();
-  health_.clear("keyframes");
-  fail("folder", fmt::format("{} was removed or replaced while the mapper ran; the map is "
-                             "in {} now",
-                             lost.string(), fresh.string()));
-} catch (const std::exception& error) {
-  fail("folder", store_->folder().string() +
-                     " was removed or replaced while the mapper ran, and the map cannot be "
-                     "written elsewhere: " +
-                     error.what());
-}
-
-void MapperService::store_keyframes(std::size_t at_most) {
-  if (!store_) return;
-  const auto& keyframes = builder_.keyframes();
-  const std::size_t end = std::min(keyframes.size(), stored_ + at_most);
-  try {
-    for (; stored_ < end; ++stored_) store_->append(keyframes[stored_]);
-    if (stored_ == keyframes.size()) health_.clear("keyframes");
-  } catch (const io::FileError& error) {
-    fail("keyframes", error.what());
-  }
+  keyframes_.look_after();
 }
 
 void MapperService::save() {
-  if (!store_) return;
-  look_after_folder();
+  keyframes_.look_after();
+  const auto folder = keyframes_.folder();
+  if (folder.empty()) return;
   views_failed_ = true;
   try {
-    mapping::write_map_views(store_->folder(), builder_.map().occupied, trajectory_);
+    mapping::write_map_views(folder, builder_.map().occupied, path_.poses());
     views_failed_ = false;
     health_.count("saved");
     health_.clear("views");
   } catch (const io::FileError& error) {
-    fail("views", error.what());
+    health_.count("save_failed");
+    health_.raise("views", bus::Health::State::kError, error.what());
   }
 }
 
-void MapperService::fail(const std::string& what, const std::string& sentence) {
-  health_.count("save_failed");
-  health_.raise(what, bus::Health::State::kError, sentence);
-}
-
 void MapperService::stop() {
-  if (!store_) return;
   save();
-  store_keyframes(builder_.keyframes().size());
-  if (stored_ == builder_.keyframes().size() && !views_failed_) return;
+  if (keyframes_.finish() && !views_failed_) return;
   throw std::runtime_error("the last save failed: " + health_.message());
 }
 

@@ -2,15 +2,13 @@
 
 #include <cstdint>
 #include <deque>
-#include <filesystem>
-#include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
+#include "services/mapper/keyframe_keeper.h"
+#include "services/mapper/travelled_path.h"
 #include "voxlist/bus/paced_sender.h"
 #include "voxlist/mapping/map_builder.h"
-#include "voxlist/mapping/map_store.h"
 
 namespace voxlist {
 class health_t;
@@ -68,29 +66,22 @@ class MapperService {
   void take_localisation(const localisation_t& message);
   void take_request(const map_request_t& message);
   void take_health(const health_t& message);
-  void load();
-  void serve_only();
   void restore(mapping::Keyframe keyframe);
   void add(std::int64_t utime_us, const Pose2& pose);
   void send_change(std::int64_t base_version);
   void send_keyframes(std::size_t first);
   void resend_keyframes(std::size_t first);
-  void look_after_folder();
-  void move_to_fresh_folder();
-  void store_keyframes(std::size_t at_most);
+  void send_keyframe(std::size_t index);
   void save();
-  void fail(const std::string& what, const std::string& sentence);
-  std::int64_t version() const { return static_cast<std::int64_t>(builder_.keyframes().size()); }
+  std::int64_t version() const { return static_cast<std::int64_t>(builder_.poses().size()); }
 
   bus::Bus& bus_;
   bus::Health& health_;
   const MapperServiceConfig config_;
-  const std::filesystem::path folder_;
   mapping::MapBuilder builder_;
-  std::int64_t map_id_ = 0;
-  std::unique_ptr<mapping::MapStore> store_;
-  std::size_t stored_ = 0;  // keyframes that were the store has on the disk
-  std::vector<StampedPose3> trajectory_;
+  TravelledPath path_;
+  KeyframeKeeper keyframes_;
+  const std::int64_t map_id_;
   std::deque<Cloud> recent_clouds_;
   bus::PacedSender sender_;
   std::int64_t decided_utime_us_ = 0;

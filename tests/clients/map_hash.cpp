@@ -13,7 +13,7 @@ int main(int argc, char** argv) try {
   MapBuilder builder;
   while (auto keyframe = reader.next()) builder.add(std::move(*keyframe));
   std::printf("map %lld, %zu keyframes, hash %016llx\n",
-              static_cast<long long>(reader.map_id().value_or(0)), builder.keyframes().size(),
+              static_cast<long long>(reader.map_id().value_or(0)), builder.poses().size(),
               static_cast<unsigned long long>(builder.map().occupied.hash()));
   return 0;
 } catch (const std::exception& error) {

@@ -64,9 +64,9 @@ TEST(MapBuilder, TakesPointsAtNoRangeForNoPoints) {
   EXPECT_EQ(builder.map().occupied.size(), 1u);
   Keyframe keyframe = keyframe_at({}, {{2.f, 0.f, 0.f}, {0.f, 0.f, 0.f}, {3.f, 0.f, 0.f}});
   keyframe.cloud.origins = {{2.f, 0.02f, 0.f}, {0.3f, 0.f, 0.f}, {0.3f, 0.f, 0.f}};
-  builder.add(keyframe);
-  EXPECT_EQ(builder.keyframes().back().cloud.points, (std::vector<Eigen::Vector3f>{{3, 0, 0}}));
-  EXPECT_EQ(builder.keyframes().back().cloud.origins.size(), 1u);
+  keyframe = builder.add(keyframe);
+  EXPECT_EQ(keyframe.cloud.points, (std::vector<Eigen::Vector3f>{{3, 0, 0}}));
+  EXPECT_EQ(keyframe.cloud.origins.size(), 1u);
 }
 
 TEST(MapBuilder, NamesTheBlocksThatAKeyframeChanged) {

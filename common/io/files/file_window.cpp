@@ -30,6 +30,14 @@ FileWindow::FileWindow(const std::filesystem::path& path)
   size_ = static_cast<std::uint64_t>(info.st_size);
 }
 
+void FileWindow::refresh() {
+  struct stat info {};
+  if (::fstat(file_.get(), &info) != 0)
+    throw FileError(path_, std::string("cannot be read: ") + std::strerror(errno));
+  size_ = static_cast<std::uint64_t>(info.st_size);
+  bytes_.clear();
+}
+
 std::string_view FileWindow::at(std::uint64_t offset, std::uint64_t count) {
   offset = std::min(offset, size_);
   count = std::min(count, size_ - offset);

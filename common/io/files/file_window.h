@@ -10,7 +10,8 @@
 namespace voxlist::io {
 
 /// A file of any size, read a piece at a time: what is in memory is the largest piece asked for, 1
-/// MiB at least. What is appended after the opening is not seen.
+/// MiB at least. What is appended after the opening is seen after refresh(). A file that is removed
+/// can still be read.
 class FileWindow {
  public:
   /// Opens the file. Throws FileError when it is missing, unreadable or not a regular file.
@@ -18,6 +19,9 @@ class FileWindow {
 
   std::uint64_t size() const { return size_; }
   const std::filesystem::path& path() const { return path_; }
+
+  /// Looks at the file's size again, and forgets what was read of it. Throws FileError.
+  void refresh();
 
   /// `count` bytes from `offset` on, fewer where the file ends. Valid until the next call. Throws
   /// FileError when the disk cannot read them.

@@ -81,7 +81,7 @@ void tell(const ExtendOptions& options, const MapRun& run, const RunFigures& fig
   console.say(fmt::format(
       "{} of {} scans placed ({} lost, {} ambiguous), {} keyframes added to {}, {} voxels, hash {}",
       figures.placed, figures.scans, figures.lost, figures.ambiguous, added,
-      run.builder().keyframes().size() - added, map.size(), hash_text(map)));
+      run.builder().poses().size() - added, map.size(), hash_text(map)));
   console.say((options.folder / "map.png").string());
   if (figures.interrupted) console.warn("interrupted: the map ends there");
 }
@@ -104,7 +104,7 @@ int extend(const ExtendOptions& options, Console& console) {
   trajectory.insert(trajectory.end(), run.trajectory().begin(), run.trajectory().end());
   MapFiles files(options.folder);
   const VoxelMap& voxels = run.builder().map().occupied;
-  const std::size_t keyframes = run.builder().keyframes().size();
+  const std::size_t keyframes = run.builder().poses().size();
   files.write_views(voxels, trajectory);
   tell(options, run, figures, keyframes - before.poses.size(), console);
   files.write_octomap(settings.octomap, !options.making.no_octomap, console);

@@ -33,7 +33,7 @@ class MapInfo {
 
   nlohmann::ordered_json json() const {
     const VoxelMap& map = builder_.map().occupied;
-    const auto keyframes = builder_.keyframes().size();
+    const auto keyframes = builder_.poses().size();
     return {
         {"map_id", reader_.map_id().value_or(0)},
         {"keyframes", keyframes},
@@ -44,8 +44,8 @@ class MapInfo {
         {"resolution_m", map.resolution_m()},
         {"map_hash", hash_text(map)},
         {"way_m", way_m_},
-        {"first_utime", keyframes > 0 ? builder_.keyframes().front().cloud.utime_us : 0},
-        {"last_utime", keyframes > 0 ? builder_.keyframes().back().cloud.utime_us : 0},
+        {"first_utime", keyframes > 0 ? builder_.poses().front().utime_us : 0},
+        {"last_utime", keyframes > 0 ? builder_.poses().back().utime_us : 0},
     };
   }
 
@@ -54,8 +54,8 @@ class MapInfo {
  private:
   void add(mapping::Keyframe keyframe) {
     points_ += keyframe.cloud.points.size();
-    if (!builder_.keyframes().empty()) {
-      const Pose3& last = builder_.keyframes().back().T_map_base;
+    if (!builder_.poses().empty()) {
+      const Pose3& last = builder_.poses().back().pose;
       way_m_ += (keyframe.T_map_base.translation() - last.translation()).norm();
     }
     builder_.add(std::move(keyframe));

@@ -87,7 +87,7 @@ void tell(const MapOptions& options, const MapRun& run, const RunFigures& figure
       fmt::format("{} of {} scans placed ({} lost, {} ambiguous, {} without a pose), {} keyframes, "
                   "{} voxels, hash {}",
                   run.trajectory().size(), figures.scans, run.lost(), run.ambiguous(),
-                  figures.without_pose, run.builder().keyframes().size(),
+                  figures.without_pose, run.builder().poses().size(),
                   run.builder().map().occupied.size(), hash_text(run.builder().map().occupied)));
   console.say(fmt::format("{:.1f} s of data in {:.1f} s, {:.1f} times real time", figures.seconds,
                           figures.elapsed_seconds, factor));
@@ -116,16 +116,18 @@ int map(const MapOptions& options, Console& console) {
   if (!options.force) refuse_robots_map(options.folder);
   mapping::refuse_folder_in_use(options.folder);
   MapFiles files(options.folder);
-  MapRun run(settings.localiser, settings.mapper);
+  mapping::KeyframeSpool keyframes(options.folder);
+  MapRun run(settings.localiser, mapping::MapBuilder(settings.mapper),
+             [&](const mapping::Keyframe& keyframe) { keyframes.add(keyframe); });
   const RunFigures figures = make_map(options, input, run, console);
   const VoxelMap& voxels = run.builder().map().occupied;
   files.write_views(voxels, run.trajectory());
-  files.write_keyframes(run.builder());
+  files.write_keyframes(keyframes, voxels);
   tell(options, run, figures, console);
   if (figures.interrupted) console.warn("interrupted: the map ends there");
   files.write_octomap(settings.octomap, !options.making.no_octomap, console);
   Summary summary = summary_of(figures);
-  describe(voxels, run.builder().keyframes().size(), summary);
+  describe(voxels, run.builder().poses().size(), summary);
   files.write_summary(std::move(summary));
   return tell_if_empty(run, console) ? 1 : 0;
 }

@@ -52,8 +52,8 @@ MapFiles::MapFiles(fs::path folder)
   io::remove_stale_temporaries(folder_);
 }
 
-void MapFiles::write_keyframes(const mapping::MapBuilder& builder) const {
-  mapping::write_keyframes(folder_, map_id(builder.map().occupied), builder.keyframes());
+void MapFiles::write_keyframes(const mapping::KeyframeSpool& keyframes, const VoxelMap& map) const {
+  keyframes.write(folder_ / mapping::kKeyframeFile, map_id(map));
 }
 
 void MapFiles::write_views(const VoxelMap& map, const std::vector<StampedPose3>& trajectory) const {

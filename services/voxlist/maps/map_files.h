@@ -7,7 +7,7 @@
 #include "services/voxlist/output/console.h"
 #include "services/voxlist/output/fresh_file.h"
 #include "voxlist/geometry/cloud.h"
-#include "voxlist/mapping/map_builder.h"
+#include "voxlist/mapping/keyframe_spool.h"
 #include "voxlist/planning/octomap.h"
 
 namespace voxlist::desk {
@@ -19,8 +19,8 @@ class MapFiles {
   /// Makes the folder. Throws FileError when nothing can be written there.
   explicit MapFiles(std::filesystem::path folder);
 
-  /// Writes the keyframes. Throws FileError.
-  void write_keyframes(const mapping::MapBuilder& builder) const;
+  /// Writes the keyframes of a map. Throws FileError.
+  void write_keyframes(const mapping::KeyframeSpool& keyframes, const VoxelMap& map) const;
 
   /// Writes trajectory, voxels and picture. Throws FileError.
   void write_views(const VoxelMap& map, const std::vector<StampedPose3>& trajectory) const;

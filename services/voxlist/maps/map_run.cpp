@@ -23,9 +23,6 @@ void MapRun::place(Scan scan, const Pose3& T_map_base) {
   add({T_map_base, std::move(scan.cloud)});
 }
 
-void MapRun::add(mapping::Keyframe keyframe) {
-  if (keep_) keep_(keyframe);
-  builder_.add(std::move(keyframe));
-}
+void MapRun::add(mapping::Keyframe keyframe) { keep_(builder_.add(std::move(keyframe))); }
 
 }  // namespace voxlist::desk

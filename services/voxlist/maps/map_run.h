@@ -15,13 +15,10 @@ namespace voxlist::desk {
 /// Equal scans give an equal map.
 class MapRun {
  public:
-  /// Is given each keyframe before it goes into the map.
+  /// Is given each keyframe that went into the map.
   using Keep = std::function<void(const mapping::Keyframe&)>;
 
-  MapRun(const matching::LocaliserConfig& localiser, const mapping::MapBuilderConfig& mapper)
-      : builder_(mapper), localiser_(builder_.map(), localiser) {}
-
-  /// Goes on with a map that is there.
+  /// Goes on with a map that is there, or an empty one.
   MapRun(const matching::LocaliserConfig& localiser, mapping::MapBuilder map, Keep keep)
       : builder_(std::move(map)), keep_(std::move(keep)), localiser_(builder_.map(), localiser) {}
 

@@ -1,0 +1,160 @@
+#include "services/mapper/keyframe_keeper.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "voxlist/bus/health.h"
+#include "voxlist/io/files/file.h"
+#include "voxlist/io/files/keep_aside.h"
+#include "voxlist/mapping/keyframe_reader.h"
+#include "voxlist/mapping/keyframe_writer.h"
+
+namespace voxlist::services {
+namespace {
+
+using State = bus::Health::State;
+
+// Keyframes that are written at once, of those that wait for a disk that works again: each takes it
+// 5 ms, and nothing else is done meanwhile.
+constexpr std::size_t kWrittenAtOnce = 50;
+
+// Of a keyframe without points.
+constexpr std::size_t kFixedBytes = 200;
+
+std::size_t bytes_of(const mapping::Keyframe& keyframe) {
+  const Cloud& cloud = keyframe.cloud;
+  return kFixedBytes + (cloud.points.size() + cloud.origins.size()) * sizeof(Eigen::Vector3f);
+}
+
+}  // namespace
+
+KeyframeKeeper::KeyframeKeeper(bus::Health& health, const std::filesystem::path& folder,
+                               bool extend, std::int64_t new_map_id,
+                               const std::vector<StampedPose3>& poses, const Take& restore)
+    : health_(health), folder_(folder), poses_(poses), map_id_(new_map_id) {
+  if (folder_.empty()) return;
+  extend ? open_store(restore) : open_read_only(restore);
+}
+
+void KeyframeKeeper::open_store(const Take& restore) {
+  store_ = std::make_unique<mapping::MapStore>(folder_, map_id_, restore);
+  map_id_ = store_->map_id();
+  health_.raise("damage", State::kWarning, store_->notice());
+}
+
+void KeyframeKeeper::open_read_only(const Take& restore) {
+  const auto file = folder_ / mapping::kKeyframeFile;
+  if (!std::filesystem::exists(file)) {
+    return health_.raise(
+        "folder", State::kWarning,
+        folder_.string() + " holds no map to serve; set extend = true to make one");
+  }
+  mapping::KeyframeReader reader(file);
+  std::vector<mapping::KeyframePlace> places;
+  while (auto keyframe = reader.next()) {
+    places.push_back(reader.place());
+    restore(std::move(*keyframe));
+  }
+  map_id_ = reader.map_id().value_or(map_id_);
+  health_.raise("damage", State::kWarning, reader.warning());
+  served_ = std::make_unique<mapping::StoredKeyframes>(file, std::move(places));
+}
+
+std::size_t KeyframeKeeper::bytes(std::size_t index) const {
+  return index < on_disk() ? disk()->bytes(index) : bytes_of(waiting_[index - on_disk()]);
+}
+
+mapping::Keyframe KeyframeKeeper::read(std::size_t index) {
+  return index < on_disk() ? read_from_disk(index) : waiting_[index - on_disk()];
+}
+
+mapping::Keyframe KeyframeKeeper::read_from_disk(std::size_t index) {
+  std::string why = "its record is damaged or cut off";
+  try {
+    if (auto keyframe = disk()->read(index)) return std::move(*keyframe);
+  } catch (const io::FileError& error) {
+    why = error.what();
+  }
+  fail("lost", fmt::format("keyframe {} cannot be read back: {}", index, why));
+  mapping::Keyframe pose_alone;
+  pose_alone.cloud.utime_us = poses_[index].utime_us;
+  pose_alone.T_map_base = poses_[index].pose;
+  return pose_alone;
+}
+
+void KeyframeKeeper::add(mapping::Keyframe keyframe) {
+  waiting_bytes_ += bytes_of(keyframe);
+  waiting_.push_back(std::move(keyframe));
+  write_waiting(kWrittenAtOnce);
+}
+
+void KeyframeKeeper::look_after() {
+  if (!store_) return;
+  store_->is_in_place() ? write_waiting(kWrittenAtOnce) : move_to_fresh_folder();
+}
+
+bool KeyframeKeeper::finish() {
+  if (!store_) return true;
+  write_waiting(waiting_.size());
+  return waiting_.empty();
+}
+
+void KeyframeKeeper::write_waiting(std::size_t at_most) {
+  tell_room();
+  if (!store_) return;
+  try {
+    for (; at_most > 0 && !waiting_.empty(); --at_most) {
+      store_->append(waiting_.front());
+      waiting_bytes_ -= bytes_of(waiting_.front());
+      waiting_.pop_front();
+    }
+    if (waiting_.empty()) health_.clear("keyframes");
+  } catch (const io::FileError& error) {
+    fail("keyframes", error.what());
+  }
+}
+
+void KeyframeKeeper::tell_room() {
+  health_.gauge("keyframes_in_memory_MB", static_cast<double>(waiting_bytes_) * 1e-6);
+  if (has_room()) return health_.clear("room");
+  health_.raise("room", State::kError,
+                fmt::format("{} MB of clouds wait in memory for {}: the map does not grow",
+                            waiting_bytes_ / 1'000'000,
+                            store_ ? "the disk" : "a folder, set folder in [mapper]"));
+}
+
+void KeyframeKeeper::move_to_fresh_folder() try {
+  const auto lost = store_->folder();
+  const auto fresh = io::free_name(folder_, ".recovered");
+  copy_to(fresh);
+  store_ = std::make_unique<mapping::MapStore>(fresh, map_id_, [](const mapping::Keyframe&) {});
+  waiting_.clear();
+  waiting_bytes_ = 0;
+  health_.clear("keyframes");
+  fail("folder", fmt::format("{} was removed or replaced while the mapper ran; the map is "
+                             "in {} now",
+                             lost.string(), fresh.string()));
+} catch (const std::exception& error) {
+  fail("folder", store_->folder().string() +
+                     " was removed or replaced while the mapper ran, and the map cannot be "
+                     "written elsewhere: " +
+                     error.what());
+}
+
+// A file that was removed can be read while it is open. Of what was cut off the poses are left.
+void KeyframeKeeper::copy_to(const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder);
+  mapping::NewKeyframeFile file(folder / mapping::kKeyframeFile, map_id_);
+  for (std::size_t i = 0; i < size(); ++i) file.add(read(i));
+  file.commit();
+}
+
+void KeyframeKeeper::fail(const std::string& what, const std::string& sentence) {
+  health_.count("save_failed");
+  health_.raise(what, State::kError, sentence);
+}
+
+}  // namespace voxlist::services

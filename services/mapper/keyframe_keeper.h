@@ -1,0 +1,84 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "voxlist/mapping/map_store.h"
+
+namespace voxlist::bus {
+class Health;
+}
+
+namespace voxlist::services {
+
+/// The keyframes of the mapper's map: on the disk, and in memory only those that the disk does not
+/// take, up to kMostWaiting. Each goes to the disk at once. How that goes is told in HEALTH. A
+/// folder that vanishes costs nothing: the map goes on in a fresh one beside it.
+class KeyframeKeeper {
+ public:
+  /// Most bytes that wait in memory for a disk, or are all there is without a folder: some 900
+  /// clouds of 12,000 points.
+  static constexpr std::size_t kMostWaiting = 256'000'000;
+
+  using Take = std::function<void(mapping::Keyframe)>;
+
+  /// Hands each keyframe of the folder's map to `restore`. Without a folder (empty) there is none;
+  /// `extend` false: nothing is ever written. `poses` of all keyframes are held elsewhere. Throws
+  /// FileError as MapStore and KeyframeReader do.
+  KeyframeKeeper(bus::Health& health, const std::filesystem::path& folder, bool extend,
+                 std::int64_t new_map_id, const std::vector<StampedPose3>& poses,
+                 const Take& restore);
+
+  std::int64_t map_id() const { return map_id_; }
+
+  /// Where the map is written; empty when it is not.
+  std::filesystem::path folder() const { return store_ ? store_->folder() : ""; }
+
+  std::size_t size() const { return on_disk() + waiting_.size(); }
+
+  /// About what a keyframe takes in memory.
+  std::size_t bytes(std::size_t index) const;
+
+  /// A keyframe; its pose alone, and an error in HEALTH, when the disk has lost it.
+  mapping::Keyframe read(std::size_t index);
+
+  /// Whether one more may be added: false once too many wait for the disk.
+  bool has_room() const { return waiting_bytes_ < kMostWaiting; }
+
+  void add(mapping::Keyframe keyframe);
+
+  /// Writes some of what waits, and looks whether the folder is still there. Call it twice a
+  /// second.
+  void look_after();
+
+  /// Writes all that waits. False when the disk does not take it.
+  bool finish();
+
+ private:
+  void open_store(const Take& restore);
+  void open_read_only(const Take& restore);
+  mapping::StoredKeyframes* disk() const { return store_ ? &store_->keyframes() : served_.get(); }
+  std::size_t on_disk() const { return disk() ? disk()->size() : 0; }
+  mapping::Keyframe read_from_disk(std::size_t index);
+  void write_waiting(std::size_t at_most);
+  void tell_room();
+  void move_to_fresh_folder();
+  void copy_to(const std::filesystem::path& folder);
+  void fail(const std::string& what, const std::string& sentence);
+
+  bus::Health& health_;
+  const std::filesystem::path folder_;
+  const std::vector<StampedPose3>& poses_;
+  std::int64_t map_id_;
+  std::unique_ptr<mapping::MapStore> store_;          // of a map that is written
+  std::unique_ptr<mapping::StoredKeyframes> served_;  // of one that is not
+  std::deque<mapping::Keyframe> waiting_;             // after those on the disk
+  std::size_t waiting_bytes_ = 0;
+};
+
+}  // namespace voxlist::services

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+#include "voxlist/geometry/cloud.h"
+
+namespace voxlist::services {
+
+/// Where the robot was, in bounded memory: each of its newest poses, and of those before only the
+/// keyframes'.
+class TravelledPath {
+ public:
+  /// Newest poses that are all kept: an hour at 10 Hz, 2 MB.
+  static constexpr std::size_t kNewest = 36'000;
+
+  /// A keyframe of before.
+  void restore(const StampedPose3& keyframe) { old_keyframes_.push_back(keyframe); }
+
+  void add(const StampedPose2& pose);
+
+  /// The pose added last has become a keyframe's.
+  void mark_keyframe() { newest_.back().is_keyframe = true; }
+
+  /// All that is known, oldest first.
+  std::vector<StampedPose3> poses() const;
+
+ private:
+  struct Entry {
+    StampedPose2 pose;
+    bool is_keyframe = false;
+  };
+
+  std::vector<StampedPose3> old_keyframes_;
+  std::deque<Entry> newest_;
+};
+
+}  // namespace voxlist::services
