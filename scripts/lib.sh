@@ -9,9 +9,6 @@ program=$(basename "$0")
 scanner_services=(laser_driver mirror_monitor cloud_assembler)
 services=("${scanner_services[@]}" localiser mapper octomap_export obstacle_detector)
 
-# Tools of LCM get a buffer that holds whole scans: with LCM's own default most large messages are lost.
-lcm_url=${LCM_DEFAULT_URL:-udpm://239.255.76.67:7667?ttl=0&recv_buf_size=8000000}
-
 say() { echo "$program: $*" >&2; }
 
 fail() {
@@ -48,4 +45,53 @@ run_folder() {
   [[ -d $folder ]] || mkdir -m 700 "$folder" || fail "cannot make $folder; set VOXLIST_RUN_DIR to a folder of your own"
   [[ -O $folder ]] || fail "$folder belongs to another user; set VOXLIST_RUN_DIR to a folder of your own"
   echo "$folder"
+}
+
+# The settings of the services that run, or ran last; else those that come with them.
+settings_in_use() {
+  local file
+  for file in "$(run_folder)/robot.toml" "$root/services/robot.toml" /etc/voxlist/robot.toml; do
+    [[ ! -e $file ]] || { echo "$file" && return; }
+  done
+}
+
+# read_bus CONFIG: sets lcm_url and prefix as the services with these settings have them; of "" as those in use.
+read_bus() {
+  local config=${1:-$(settings_in_use)} desk told
+  lcm_url=${LCM_DEFAULT_URL:-udpm://239.255.76.67:7667?ttl=0}
+  prefix=
+  desk=${VOXLIST_BIN_DIR:-$root/build/bin}/voxlist
+  [[ -x $desk ]] || desk=$(command -v voxlist) || desk=
+  if [[ -n $desk ]]; then
+    told=$("$desk" bus ${config:+--config "$config"}) || exit 1
+    lcm_url=$(sed -n 's/^url //p' <<<"$told")
+    prefix=$(sed -n 's/^prefix //p' <<<"$told")
+  elif [[ -n ${1:-} ]] || grep -Eqs '^[[:space:]]*(bus\.)?(url|prefix)[[:space:]]*=' "$config"; then
+    fail "$config cannot be read without the program voxlist; scripts/build makes it"
+  fi
+  # Tools of LCM get a buffer that holds whole scans: with LCM's own default most large messages are lost.
+  if [[ $lcm_url == udpm://* && $lcm_url != *recv_buf_size=* ]]; then
+    [[ $lcm_url == *\?* ]] && lcm_url+='&' || lcm_url+='?'
+    lcm_url+=recv_buf_size=8000000
+  fi
+}
+
+# find_parts LOG: sets parts to the files of a recording, in their order: LOG, else LOG.00, LOG.01, ... Tells which
+# are missing.
+find_parts() {
+  local file next=0
+  parts=()
+  if [[ -e $1 ]]; then
+    parts=("$1")
+    return
+  fi
+  for file in "$1".[0-9][0-9] "$1".[0-9][0-9][0-9]; do
+    [[ -e $file ]] || continue
+    while ((next < 10#${file##*.})); do
+      say "$(printf '%s.%02d' "$1" $next) is not there, its messages are missing"
+      ((++next))
+    done
+    ((++next))
+    parts+=("$file")
+  done
 }

@@ -9,7 +9,10 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <iterator>
 #include <stdexcept>
+
+#include "voxlist/system/file_parts.h"
 
 namespace voxlist::bus {
 namespace {
@@ -48,18 +51,21 @@ struct EventLogReader::Header {
   std::int64_t data_length;
 };
 
-EventLogReader::EventLogReader(const std::string& path)
-    : fd_(open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
-  struct stat status {};
-  if (fd_ < 0) throw std::runtime_error(system_error("open log", path));
-  if (fstat(fd_, &status) != 0 || !S_ISREG(status.st_mode)) {
-    close(fd_);
-    throw std::runtime_error(fmt::format("cannot open log {}: not a file", path));
-  }
-  size_ = status.st_size;
+EventLogReader::EventLogReader(const std::string& path) {
+  const FileParts parts = parts_of(path);
+  for (const auto& file : parts.files) open(file.string());
+  for (const auto& file : parts.missing) missing_.push_back(file.string());
 }
 
-EventLogReader::~EventLogReader() { close(fd_); }
+void EventLogReader::open(const std::string& path) {
+  FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  struct stat status {};
+  if (file.get() < 0) throw std::runtime_error(system_error("open log", path));
+  if (fstat(file.get(), &status) != 0 || !S_ISREG(status.st_mode))
+    throw std::runtime_error(fmt::format("cannot open log {}: not a file", path));
+  parts_.push_back({std::move(file), size_});
+  size_ += status.st_size;
+}
 
 std::optional<Event> EventLogReader::next() {
   while (position_ < size_) {
@@ -100,7 +106,9 @@ std::optional<EventLogReader::Header> EventLogReader::read_header(std::int64_t p
                     header.data_length <= kMaxMessageBytes;
   const std::int64_t body = position + static_cast<std::int64_t>(kHeaderBytes);
   const std::int64_t end = body + header.channel_length + header.data_length;
-  return sane && ends_well(body, end) ? std::optional(header) : std::nullopt;
+  // An event lies in one part, whatever its lengths say.
+  const bool is_in_part = end <= end_of(part_at(position));
+  return sane && is_in_part && ends_well(body, end) ? std::optional(header) : std::nullopt;
 }
 
 // A wrong length shows where the event ends: not at the next event, having run over the next
@@ -131,10 +139,22 @@ void EventLogReader::skip_damage() {
   position_ = next;
 }
 
+std::vector<EventLogReader::Part>::const_iterator EventLogReader::part_at(
+    std::int64_t position) const {
+  return std::prev(std::ranges::upper_bound(parts_, position, {}, &Part::start));
+}
+
+std::int64_t EventLogReader::end_of(std::vector<Part>::const_iterator part) const {
+  return std::next(part) == parts_.end() ? size_ : std::next(part)->start;
+}
+
+// The parts are one sequence of bytes.
 bool EventLogReader::read(std::int64_t position, void* to, std::size_t bytes) const {
   auto* at = static_cast<char*>(to);
   while (bytes > 0) {
-    const ssize_t got = pread(fd_, at, bytes, position);
+    const auto part = part_at(position);
+    const std::size_t wanted = std::min(bytes, static_cast<std::size_t>(end_of(part) - position));
+    const ssize_t got = pread(part->file.get(), at, wanted, position - part->start);
     if (got < 0 && errno == EINTR) continue;
     if (got <= 0) return false;
     at += got;
@@ -144,12 +164,15 @@ bool EventLogReader::read(std::int64_t position, void* to, std::size_t bytes) co
   return true;
 }
 
-EventLogWriter::EventLogWriter(std::string path)
-    : path_(std::move(path)), file_(std::fopen(path_.c_str(), "wbe"), &std::fclose) {
+EventLogWriter::EventLogWriter(std::string path, std::string prefix)
+    : path_(std::move(path)),
+      prefix_(std::move(prefix)),
+      file_(std::fopen(path_.c_str(), "wbe"), &std::fclose) {
   if (!file_) fail("create log");
 }
 
-void EventLogWriter::write(const std::string& channel, std::int64_t utime_us, Bytes bytes) {
+void EventLogWriter::write(const std::string& channel_name, std::int64_t utime_us, Bytes bytes) {
+  const std::string channel = prefix_ + channel_name;
   if (!file_) throw std::logic_error(fmt::format("log {} is closed", path_));
   std::vector<std::uint8_t> header(kSync.begin(), kSync.end());
   append_big_endian(static_cast<std::uint64_t>(events_++), 8, header);

@@ -9,6 +9,7 @@
 
 #include "voxlist/bus/channels.h"
 #include "voxlist/bus/wire.h"
+#include "voxlist/system/file_descriptor.h"
 
 namespace voxlist::bus {
 
@@ -25,17 +26,14 @@ struct Event {
 };
 
 /// Reads an LCM event log (the files of lcm-logger) that may be damaged: every length is checked,
-/// after damage it goes on at the next whole event, and a torn tail is only its end.
+/// after damage it goes on at the next whole event, and a torn tail is only its end. A log in parts
+/// (NAME.00, NAME.01, ...) is read as one by its name; each part can be read by itself.
 class EventLogReader {
  public:
-  /// Throws std::runtime_error when the file cannot be opened. An empty file is a log without
-  /// events.
+  /// Throws std::runtime_error when a file cannot be opened. An empty file is a log without events.
   explicit EventLogReader(const std::string& path);
-  ~EventLogReader();
-  EventLogReader(const EventLogReader&) = delete;
-  EventLogReader& operator=(const EventLogReader&) = delete;
 
-  /// The next whole event; nullopt at the end of the file (as long as it was when opened).
+  /// The next whole event; nullopt at the end of the last file (as long as it was when opened).
   std::optional<Event> next();
 
   /// How often something was no whole event, the torn tail included.
@@ -44,20 +42,33 @@ class EventLogReader {
   /// Their bytes.
   std::int64_t skipped_bytes() const { return skipped_; }
 
-  /// Bytes read so far, and bytes of the whole file: for progress bars.
+  /// Parts that are not there, though later ones are.
+  const std::vector<std::string>& missing_parts() const { return missing_; }
+
+  /// Bytes read so far, and bytes of all files: for progress bars.
   std::int64_t position_bytes() const { return position_; }
   std::int64_t size_bytes() const { return size_; }
 
  private:
   struct Header;
 
+  // One file of the log, where its bytes begin among all.
+  struct Part {
+    FileDescriptor file;
+    std::int64_t start = 0;
+  };
+
+  void open(const std::string& path);
+  std::vector<Part>::const_iterator part_at(std::int64_t position) const;
+  std::int64_t end_of(std::vector<Part>::const_iterator part) const;
   bool read(std::int64_t position, void* to, std::size_t bytes) const;
   std::optional<Header> read_header(std::int64_t position) const;
   bool ends_well(std::int64_t body, std::int64_t end) const;
   std::int64_t find_sync(std::int64_t from, std::int64_t limit) const;
   void skip_damage();
 
-  int fd_;
+  std::vector<Part> parts_;
+  std::vector<std::string> missing_;
   std::int64_t size_ = 0;
   std::int64_t position_ = 0;
   std::int64_t damaged_ = 0;
@@ -67,8 +78,9 @@ class EventLogReader {
 /// Writes an LCM event log that lcm-logplayer and EventLogReader read.
 class EventLogWriter {
  public:
-  /// Creates or empties the file. Throws std::runtime_error with the path and the system's reason.
-  explicit EventLogWriter(std::string path);
+  /// Creates or empties the file. `prefix` is put before every channel's name, as a Bus does.
+  /// Throws std::runtime_error with the path and the system's reason.
+  explicit EventLogWriter(std::string path, std::string prefix = {});
 
   /// Appends an event. Throws std::runtime_error, e.g. when the disk is full.
   void write(const std::string& channel, std::int64_t utime_us, Bytes bytes);
@@ -90,7 +102,7 @@ class EventLogWriter {
   [[noreturn]] void fail(const char* doing) const;
   [[noreturn]] void refuse(const std::string& channel, Fault fault) const;
 
-  std::string path_;
+  std::string path_, prefix_;
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
   std::int64_t events_ = 0;
 };

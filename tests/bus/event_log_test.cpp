@@ -209,6 +209,41 @@ TEST_F(EventLog, ReportsAPathThatCannotBeWritten) {
   EXPECT_THROW(EventLogWriter((folder_ / "no" / "such").string()), std::runtime_error);
 }
 
+TEST_F(EventLog, InPartsIsReadAsOneByItsName) {
+  const Buffer all = write_events(6);
+  const auto part = [&](int number, std::size_t from, std::size_t to) {
+    std::ofstream file(folder_ / ("run.lcm.0" + std::to_string(number)), std::ios::binary);
+    file.write(reinterpret_cast<const char*>(all.data()) + from,
+               static_cast<std::streamsize>(to - from));
+  };
+  const std::size_t event = all.size() / 6;
+  part(0, 0, 2 * event);
+  part(1, 2 * event, 3 * event);
+  part(2, 3 * event, 3 * event);
+  part(3, 3 * event, 6 * event);
+  EventLogReader log(folder_ / "run.lcm");
+  EXPECT_EQ(channels(log), (std::vector<std::string>{"C0", "C1", "C2", "C3", "C4", "C5"}));
+  EXPECT_EQ(log.damaged_events(), 0);
+  EXPECT_EQ(log.position_bytes(), std::ssize(all));
+  EventLogReader one(folder_ / "run.lcm.01");
+  EXPECT_EQ(channels(one), (std::vector<std::string>{"C2"}));
+  part(0, 0, 2 * event - 3);  // torn: the first one's end is not the next one's start
+  fs::remove(folder_ / "run.lcm.01");
+  EventLogReader torn(folder_ / "run.lcm");
+  EXPECT_EQ(channels(torn), (std::vector<std::string>{"C0", "C3", "C4", "C5"}));
+  EXPECT_EQ(torn.damaged_events(), 1);
+  EXPECT_EQ(torn.missing_parts(), (std::vector<std::string>{folder_ / "run.lcm.01"}));
+}
+
+TEST_F(EventLog, PutsAPrefixBeforeEachChannel) {
+  EventLogWriter writer(path(), "robot/");
+  writer.write(kOdometry, 1, pose_t{});
+  writer.write("X", 2, Buffer(3, 0));
+  writer.close();
+  EventLogReader log(path());
+  EXPECT_EQ(channels(log), (std::vector<std::string>{"robot/ODOMETRY", "robot/X"}));
+}
+
 TEST_F(EventLog, PlaysThroughABusOneEventACallAndThenEnds) {
   {
     EventLogWriter out(path());

@@ -85,6 +85,22 @@ TEST_F(Calibrate, RefusesAndLeavesTheFileAloneWhenTheLogCannotTell) {
   EXPECT_EQ(test::read_text(robot_), kSettings);
 }
 
+TEST_F(Calibrate, FindsInAStillRecordingWhatItWasMadeWith) {
+  test::write_text(robot_, "[simulator]\nmirror_height_m = 0.105\n");
+  const std::string part = work_ / "room.lcm.00";
+  ASSERT_EQ(test::run({"simulate", "--still", "-o", part, "--config", robot_}).exit_code, 0);
+  const test::DeskRun run = test::run({"calibrate", work_ / "room.lcm", "-o", robot_});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NEAR(setting("mirror_height_m"), 0.105, 0.001);
+}
+
+TEST_F(Calibrate, TakesTheRobotsPrefix) {
+  test::write_text(robot_, "[bus]\nprefix = 'a/'\n" + std::string(kSettings));
+  ASSERT_EQ(simulate("30").exit_code, 0);
+  EXPECT_THAT(test::run({"calibrate", log_}).err, HasSubstr("has no LASER; it holds a/CLOUD ("));
+  EXPECT_EQ(test::run({"calibrate", log_, "--config", robot_}).exit_code, 0);
+}
+
 TEST_F(Calibrate, SaysThatALogHasNoLines) {
   test::write_text(log_, "");
   const test::DeskRun run = test::run({"calibrate", log_});

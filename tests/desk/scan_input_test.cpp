@@ -18,8 +18,8 @@ using testing::HasSubstr;
 
 class ScanInputs : public testing::Test {
  protected:
-  std::vector<Scan> read(const std::string& path) {
-    ScanInput input(path, console_);
+  std::vector<Scan> read(const std::string& path, const std::string& prefix = {}) {
+    ScanInput input(path, console_, {}, prefix);
     std::vector<Scan> scans;
     while (auto scan = input.next()) scans.push_back(std::move(*scan));
     omissions_ = input.omissions().summary();
@@ -27,9 +27,9 @@ class ScanInputs : public testing::Test {
     return scans;
   }
 
-  std::string refusal(const std::string& path) {
+  std::string refusal(const std::string& path, const std::string& prefix = {}) {
     try {
-      ScanInput input(path, console_);
+      ScanInput input(path, console_, {}, prefix);
       while (input.next()) {
       }
     } catch (const std::exception& error) {
@@ -148,6 +148,31 @@ TEST_F(ScanInputs, NameWhatALogWithoutScansHolds) {
   }
   EXPECT_THAT(refusal(work_ / "log"), HasSubstr("has no CLOUD; it holds VELODYNE_POINTS (3), "
                                                 "a/CLOUD (1)"));
+}
+
+TEST_F(ScanInputs, TellOfWhichRobotALogIs) {
+  {
+    bus::EventLogWriter log(work_ / "log", "robot2/");
+    for (int i = 0; i < 4; ++i) write_cloud(log, 1000 * i);
+  }
+  EXPECT_THAT(refusal(work_ / "log"),
+              HasSubstr("has no CLOUD; it holds robot2/CLOUD (4): give --prefix robot2/, or the "
+                        "robot's settings with --config"));
+  EXPECT_EQ(read(work_ / "log", "robot2/").size(), 4u);
+  EXPECT_THAT(refusal(work_ / "log", "robot1/"), HasSubstr("has no robot1/CLOUD; it holds "));
+}
+
+TEST_F(ScanInputs, ReadAllPartsOfARecording) {
+  for (const int part : {0, 1, 3}) {
+    bus::EventLogWriter log(work_ / ("run.lcm.0" + std::to_string(part)));
+    for (int i = 0; i < 2; ++i) write_cloud(log, 1000 * (2 * part + i), 2 * part + i);
+  }
+  EXPECT_EQ(read(work_ / "run.lcm").size(), 6u);
+  EXPECT_EQ(omissions_, "1 missing parts");
+  EXPECT_THAT(err_.str(), HasSubstr("run.lcm.02 is not there"));
+  EXPECT_EQ(read(work_ / "run.lcm.01").size(), 2u);
+  EXPECT_THAT(err_.str(),
+              HasSubstr("run.lcm.01 is one part of a recording: give " + (work_ / "run.lcm")));
 }
 
 TEST_F(ScanInputs, RefuseTimesThatAreNoMicroseconds) {

@@ -33,7 +33,9 @@ class Usage : public testing::Test {
 };
 
 TEST_F(Usage, IsExplainedWithExamplesByEachCommand) {
-  for (const std::string command : {"import", "map", "localise", "evaluate", "calibrate"}) {
+  for (const std::string command :
+       {"import", "map", "extend", "rebuild", "localise", "evaluate", "info", "export", "simulate",
+        "calibrate", "watch", "health", "bus"}) {
     const test::DeskRun run = test::run({command, "--help"});
     EXPECT_EQ(run.exit_code, 0);
     EXPECT_THAT(run.out, HasSubstr("  voxlist " + command + " "));
@@ -48,6 +50,24 @@ TEST_F(Usage, ThatIsWrongHasAnExitCodeOfItsOwn) {
     EXPECT_GT(run.exit_code, 100);
     EXPECT_THAT(run.err, HasSubstr("--help"));
   }
+}
+
+TEST_F(Usage, NamesAWordThatNoCommandKnows) {
+  for (const std::string command : {"import", "map", "extend", "rebuild", "localise", "evaluate",
+                                    "info", "export", "simulate", "calibrate", "watch", "bus"}) {
+    const test::DeskRun run = test::run({command, "a", "b", "-o", "c", "--unheard-of", "d", "e"});
+    EXPECT_GT(run.exit_code, 100) << command;
+    EXPECT_THAT(run.err, HasSubstr("--unheard-of")) << command;
+  }
+}
+
+TEST_F(Usage, TellsTheBusOfTheRobotsSettings) {
+  test::write_text(work_ / "robot.toml", "[bus]\nprefix = 'a/'\nurl = 'memq://x'\n");
+  const test::DeskRun run = test::run({"bus", "--config", work_ / "robot.toml"});
+  EXPECT_EQ(run.exit_code, 0);
+  EXPECT_EQ(run.out, "url memq://x\nprefix a/\n");
+  test::write_text(work_ / "robot.toml", "[bus]\nprefixx = 'a/'\n");
+  expect_refusal({"bus", "--config", work_ / "robot.toml"}, "prefixx");
 }
 
 TEST_F(Usage, NamesAWordThatIsNoCommand) {

@@ -21,6 +21,7 @@ struct CalibrateOptions {
   std::filesystem::path log;
   std::filesystem::path config;
   std::filesystem::path output;
+  PrefixOption prefix;
 
   // Where the scanner's present settings stand: nowhere at first.
   std::filesystem::path settings() const {
@@ -90,8 +91,8 @@ void give(const CalibrateOptions& options, const Values& values, Console& consol
 
 int run(const CalibrateOptions& options, Console& console) {
   const scanner::CloudAssemblerConfig scanner = read_scanner_settings(options.settings());
-  const calibration::Calibration result =
-      calibration::calibrate(read_scanner_log(options.log, console), scanner, {});
+  const calibration::Calibration result = calibration::calibrate(
+      read_scanner_log(options.log, options.prefix.of(options.settings()), console), scanner, {});
   if (result.answer) tell(*result.answer, calibration::parameters_of(scanner.geometry), console);
   for (const std::string& warning : result.warnings) console.warn(warning);
   for (const std::string& refusal : result.refusals) console.warn("refused: " + refusal);
@@ -113,6 +114,7 @@ void add_calibrate(CLI::App& program, Command& chosen) {
                       "the robot's settings to start from; default: those of -o, if there");
   command->add_option("-o,--output", options->output,
                       "the robot's settings to write; without it the lines are only shown");
+  options->prefix.add_to(*command);
   command->footer(
       "Example:\n"
       "  voxlist calibrate still.lcm -o services/robot.toml");

@@ -27,5 +27,6 @@ void add_simulate(CLI::App& program, Command& chosen);
 void add_calibrate(CLI::App& program, Command& chosen);
 void add_watch(CLI::App& program, Command& chosen);
 void add_health(CLI::App& program, Command& chosen);
+void add_bus(CLI::App& program, Command& chosen);
 
 }  // namespace voxlist::desk

@@ -90,7 +90,8 @@ int extend(const ExtendOptions& options, Console& console) {
   const DeskSettings settings = options.making.settings();
   refuse_without_map(options.folder);
   ScanInput input(options.input, console,
-                  {settings.mapper.min_range_m, settings.mapper.max_range_m});
+                  {settings.mapper.min_range_m, settings.mapper.max_range_m},
+                  options.making.prefix.of(options.making.config));
   OpenMap open(options.folder, settings.mapper, console);
   StoredMap before = open.take_map();
   MapRun run(settings.localiser, std::move(before.builder),

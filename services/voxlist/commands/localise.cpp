@@ -23,6 +23,7 @@ struct LocaliseOptions {
   std::filesystem::path input;
   std::filesystem::path result;
   std::filesystem::path config;
+  PrefixOption prefix;
 };
 
 // One scan's answer, and what it cost.
@@ -87,7 +88,7 @@ int localise(const LocaliseOptions& options, Console& console) {
   FreshFile file(options.result);
   const StoredMap map = read_map(options.map, settings.mapper, console);
   matching::Localiser localiser(map.builder.map(), settings.localiser);
-  ScanInput input(options.input, console);
+  ScanInput input(options.input, console, {}, options.prefix.of(options.config));
   const std::vector<Located> results = locate_all(localiser, input, console);
 
   std::string table = kHeader;
@@ -114,6 +115,7 @@ void add_localise(CLI::App& program, Command& chosen) {
   command->add_option("-o,--output", options->result, "the table to write (result.csv)")
       ->required();
   command->add_option("--config", options->config, "the robot's settings (services/robot.toml)");
+  options->prefix.add_to(*command);
   command->footer(
       "Example:\n"
       "  voxlist localise hall_map second_visit -o result.csv");

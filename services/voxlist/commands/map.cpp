@@ -112,7 +112,8 @@ bool tell_if_empty(const MapRun& run, Console& console) {
 int map(const MapOptions& options, Console& console) {
   const DeskSettings settings = options.making.settings();
   ScanInput input(options.input, console,
-                  {settings.mapper.min_range_m, settings.mapper.max_range_m});
+                  {settings.mapper.min_range_m, settings.mapper.max_range_m},
+                  options.making.prefix.of(options.making.config));
   if (!options.force) refuse_robots_map(options.folder);
   mapping::refuse_folder_in_use(options.folder);
   MapFiles files(options.folder);

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <stdexcept>
 
+#include "services/voxlist/live/bus_options.h"
 #include "voxlist/config/config.h"
 #include "voxlist/config/tables.h"
 
@@ -34,8 +35,19 @@ scanner::CloudAssemblerConfig read_scanner_settings(const std::filesystem::path&
   return settings;
 }
 
+void PrefixOption::add_to(CLI::App& command) {
+  option_ = command.add_option("--prefix", text_,
+                               "the robot's prefix before each channel's name in a log; default "
+                               "that of --config");
+}
+
+std::string PrefixOption::of(const std::filesystem::path& settings) const {
+  return option_->count() > 0 ? text_ : read_bus_options(settings, "").prefix;
+}
+
 void MakingOptions::add_to(CLI::App& command) {
   command.add_option("--config", config, "the robot's settings (services/robot.toml)");
+  prefix.add_to(command);
   command
       .add_option("--octomap-resolution", octomap_resolution_m,
                   "edge of map.bt's voxels in metres; default 0.1")

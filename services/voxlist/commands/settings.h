@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "voxlist/mapping/map_builder.h"
 #include "voxlist/matching/localisation/localiser.h"
@@ -9,7 +10,8 @@
 
 namespace CLI {
 class App;
-}
+class Option;
+}  // namespace CLI
 
 namespace voxlist::desk {
 
@@ -18,6 +20,20 @@ struct DeskSettings {
   matching::LocaliserConfig localiser;
   mapping::MapBuilderConfig mapper;
   planning::OctomapConfig octomap;
+};
+
+/// The robot's prefix before each channel's name in a log: --prefix, else that of its settings.
+class PrefixOption {
+ public:
+  /// Adds it to a command. It must outlive it.
+  void add_to(CLI::App& command);
+
+  /// Throws std::runtime_error with all complaints about the settings file.
+  std::string of(const std::filesystem::path& settings) const;
+
+ private:
+  std::string text_;
+  const CLI::Option* option_ = nullptr;
 };
 
 /// Reads the tables [localiser], [mapper] and [octomap_export]; an empty path gives the defaults.
@@ -30,6 +46,7 @@ scanner::CloudAssemblerConfig read_scanner_settings(const std::filesystem::path&
 /// Options of the commands that make maps.
 struct MakingOptions {
   std::filesystem::path config;
+  PrefixOption prefix;
   double octomap_resolution_m = 0.0;
   bool no_octomap = false;
   int threads = 0;

@@ -1,11 +1,13 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 #include <stdexcept>
 #include <variant>
 
 #include "services/voxlist/commands/command.h"
+#include "services/voxlist/live/bus_options.h"
 #include "services/voxlist/output/console.h"
 #include "services/voxlist/output/fresh_file.h"
 #include "services/voxlist/output/progress.h"
@@ -22,11 +24,13 @@ struct SimulateOptions {
   std::filesystem::path log;
   std::filesystem::path settings;
   double seconds = 0.0;
+  bool still = false;
 };
 
 struct SimulateSettings {
   simulation::SimulationConfig simulation;
   scanner::CloudAssemblerConfig assembler;
+  std::string prefix;
 };
 
 // The robot's own body as the assembler is told it, with room for noise.
@@ -41,8 +45,21 @@ std::vector<double> mask(const std::vector<simulation::Box>& body) {
   return bounds;
 }
 
+// What `voxlist calibrate` needs: a robot that stands in a room for a minute, at two speeds of its
+// mirror.
+void stand_still(simulation::SimulationConfig& config) {
+  constexpr double kUsual_s = 60.0, kFasterSweep_s = 0.6;
+  config.stand_in_room = std::max(config.stand_in_room, 0);
+  if (config.duration_s == 0.0) config.duration_s = kUsual_s;
+  simulation::StepperMotorConfig& motor = config.scanner.motor;
+  if (motor.sweep_s.size() != 1) return;
+  motor.sweep_s.push_back(kFasterSweep_s * motor.sweep_s.front());
+  motor.from_s.push_back(config.duration_s / 2.0);
+}
+
 SimulateSettings read_settings(const SimulateOptions& options) {
   SimulateSettings settings;
+  settings.prefix = read_bus_options(options.settings, "").prefix;
   if (!options.settings.empty()) {
     std::string all;
     for (const std::string& complaint :
@@ -55,6 +72,7 @@ SimulateSettings read_settings(const SimulateOptions& options) {
   }
   settings.simulation.scans = simulation::SimulationConfig::Scans::kLines;
   if (options.seconds > 0.0) settings.simulation.duration_s = options.seconds;
+  if (options.still) stand_still(settings.simulation);
   if (settings.assembler.robot_boxes_m.empty())
     settings.assembler.robot_boxes_m = mask(settings.simulation.scanner.body);
   return settings;
@@ -83,7 +101,7 @@ int simulate(const SimulateOptions& options, Console& console) {
   const SimulateSettings settings = read_settings(options);
   simulation::SimulatedRun run(settings.simulation);
   FreshFile file(options.log);
-  SimulatedLog log(file.path(), run.scanner().config(), settings.assembler);
+  SimulatedLog log(file.path(), settings.prefix, run.scanner().config(), settings.assembler);
   {
     Progress progress(console, "simulating");
     while (!stop_requested()) {
@@ -114,9 +132,12 @@ void add_simulate(CLI::App& program, Command& chosen) {
                       "a robot's settings: tables [simulator] and [cloud_assembler]");
   command->add_option("--seconds", options->seconds, "how long; default as the settings say")
       ->check(CLI::Range(0.1, 86'400.0));
+  command->add_flag("--still", options->still,
+                    "stands in a room for a minute at two speeds of the mirror: for calibrate");
   command->footer(
-      "Example:\n"
-      "  voxlist simulate -o run.lcmlog --seconds 60 && voxlist map run.lcmlog -o run_map");
+      "Examples:\n"
+      "  voxlist simulate -o run.lcmlog --seconds 60 && voxlist map run.lcmlog -o run_map\n"
+      "  voxlist simulate --still -o room.lcm && voxlist calibrate room.lcm -o robot.toml");
   command->callback([options, &chosen] {
     chosen = [options](Console& console) { return simulate(*options, console); };
   });

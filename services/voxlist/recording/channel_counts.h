@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <vector>
 
 namespace voxlist::desk {
 
@@ -11,10 +12,16 @@ class ChannelCounts {
  public:
   void add(const std::string& channel) { ++counts_[channel]; }
 
-  /// "LASER (4500), MIRROR (4500)", ten channels at most; "nothing" of an empty log.
-  std::string text() const;
+  /// "has no CLOUD; it holds robot2/CLOUD (12): give --prefix robot2/, or its settings with
+  /// --config", of a channel that was looked for under a prefix. Where no prefix would help:
+  /// `remedy`.
+  std::string why_without(const std::string& channel, const std::string& prefix,
+                          const std::string& remedy = {}) const;
 
  private:
+  std::string text() const;
+  std::vector<std::string> prefixes_of(const std::string& channel) const;
+
   std::map<std::string, std::int64_t> counts_;
 };
 

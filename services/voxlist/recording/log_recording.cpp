@@ -8,6 +8,7 @@
 #include "services/voxlist/recording/recording.h"
 #include "voxlist/bus/event_log.h"
 #include "voxlist/io/files/file.h"
+#include "voxlist/system/file_parts.h"
 
 namespace voxlist::desk {
 namespace {
@@ -47,17 +48,20 @@ RowOfScan match_numbers(const io::PoseTable& poses) {
 
 class LogRecording : public Recording {
  public:
-  LogRecording(const std::filesystem::path& path, Omissions& omissions)
-      : path_(path), omissions_(omissions), log_(path.string()) {
+  LogRecording(const std::filesystem::path& path, std::string prefix, Omissions& omissions)
+      : path_(path), prefix_(std::move(prefix)), omissions_(omissions), log_(path.string()) {
     if (!bus::EventLogReader(path.string()).next()) {
       throw io::FileError(path, "is no LCM log, give one or a folder of scans");
     }
+    tell_parts();
   }
 
   std::optional<Record> next() override {
     while (auto event = log_.next()) {
       tell_damage();
       channels_.add(event->channel);
+      if (!event->channel.starts_with(prefix_)) continue;
+      event->channel.erase(0, prefix_.size());
       if (auto record = read(*event)) return record;
     }
     tell_damage();
@@ -68,13 +72,23 @@ class LogRecording : public Recording {
     return static_cast<double>(log_.position_bytes()) / static_cast<double>(log_.size_bytes());
   }
 
-  std::string contents() const override { return channels_.text(); }
+  std::string why_no_scan() const override {
+    return clouds_ > 0 ? std::string() : channels_.why_without(bus::kCloud.name, prefix_);
+  }
 
   RowOfScan match(const io::PoseTable& poses) const override {
     return poses.has_times ? match_times(poses) : match_numbers(poses);
   }
 
  private:
+  void tell_parts() {
+    for (const std::string& part : log_.missing_parts())
+      omissions_.add("missing parts", part + " is not there");
+    if (const auto whole = whole_of(path_); !whole.empty())
+      omissions_.remark(fmt::format("{} is one part of a recording: give {} for all of it",
+                                    path_.string(), whole.string()));
+  }
+
   std::optional<Record> read(const bus::Event& event) {
     if (event.channel == bus::kOdometry.name) return decoded(event, OdometryRecord{});
     if (event.channel == bus::kTruth.name) return decoded(event, TruthRecord{});
@@ -114,6 +128,7 @@ class LogRecording : public Recording {
   }
 
   const std::filesystem::path path_;
+  const std::string prefix_;
   Omissions& omissions_;
   bus::EventLogReader log_;
   ChannelCounts channels_;
@@ -124,8 +139,8 @@ class LogRecording : public Recording {
 }  // namespace
 
 std::unique_ptr<Recording> open_log_recording(const std::filesystem::path& log,
-                                              Omissions& omissions) {
-  return std::make_unique<LogRecording>(log, omissions);
+                                              const std::string& prefix, Omissions& omissions) {
+  return std::make_unique<LogRecording>(log, prefix, omissions);
 }
 
 }  // namespace voxlist::desk

@@ -1,16 +1,17 @@
 #include "services/voxlist/recording/recording.h"
 
 #include "voxlist/io/files/file.h"
+#include "voxlist/system/file_parts.h"
 
 namespace voxlist::desk {
 
-std::unique_ptr<Recording> open_recording(const std::filesystem::path& path, Omissions& omissions) {
+std::unique_ptr<Recording> open_recording(const std::filesystem::path& path,
+                                          const std::string& prefix, Omissions& omissions) {
   std::error_code ignored;
-  if (!std::filesystem::exists(path, ignored)) {
+  if (std::filesystem::is_directory(path, ignored)) return open_folder_recording(path, omissions);
+  if (!std::filesystem::exists(parts_of(path).files.front(), ignored))
     throw io::FileError(path, "is not there, give a folder of scans or an LCM log");
-  }
-  return std::filesystem::is_directory(path, ignored) ? open_folder_recording(path, omissions)
-                                                      : open_log_recording(path, omissions);
+  return open_log_recording(path, prefix, omissions);
 }
 
 }  // namespace voxlist::desk

@@ -50,22 +50,23 @@ class Recording {
   /// Whether it knows when its scans were taken.
   virtual bool has_times() const { return true; }
 
-  /// What it holds beside scans, where it can say: "LASER (4500), MIRROR (4500)". Complete at the
-  /// end.
-  virtual std::string contents() const { return {}; }
+  /// Why there was no scan, where it can say: "has no CLOUD; it holds LASER (4500)". At the end.
+  virtual std::string why_no_scan() const { return {}; }
 
   /// How the table's rows are found. `poses` must outlive the answer.
   virtual RowOfScan match(const io::PoseTable& poses) const = 0;
 };
 
-/// Opens a folder of scans (scan_folder.h) or an LCM log. Throws FileError when it is neither.
-/// `omissions` must outlive the recording.
-std::unique_ptr<Recording> open_recording(const std::filesystem::path& path, Omissions& omissions);
+/// Opens a folder of scans (scan_folder.h) or an LCM log, by its name or that of its parts. Of the
+/// log's channels those with this prefix are read. Throws FileError when it is neither. `omissions`
+/// must outlive the recording.
+std::unique_ptr<Recording> open_recording(const std::filesystem::path& path,
+                                          const std::string& prefix, Omissions& omissions);
 
 /// The two kinds.
 std::unique_ptr<Recording> open_folder_recording(const std::filesystem::path& folder,
                                                  Omissions& omissions);
 std::unique_ptr<Recording> open_log_recording(const std::filesystem::path& log,
-                                              Omissions& omissions);
+                                              const std::string& prefix, Omissions& omissions);
 
 }  // namespace voxlist::desk

@@ -11,10 +11,11 @@
 
 namespace voxlist::desk {
 
-ScanInput::ScanInput(std::filesystem::path path, Console& console, const RangeLimits& limits)
+ScanInput::ScanInput(std::filesystem::path path, Console& console, const RangeLimits& limits,
+                     const std::string& prefix)
     : path_(std::move(path)),
       omissions_(console),
-      recording_(open_recording(path_, omissions_)),
+      recording_(open_recording(path_, prefix, omissions_)),
       limits_(limits),
       times_(path_, omissions_) {}
 
@@ -33,10 +34,11 @@ std::optional<Scan> ScanInput::next() {
 void ScanInput::refuse_all() const {
   if (stop_requested())
     throw io::FileError(path_, "interrupted before the first scan, nothing was written");
-  const std::string contents = recording_->contents();
-  if (contents.empty() || !omissions_.empty())
-    throw io::FileError(path_, "has no scan that can be read, give a folder of scans or a log");
-  throw io::FileError(path_, fmt::format("has no {}; it holds {}", bus::kCloud.name, contents));
+  const std::string why = recording_->why_no_scan();
+  throw io::FileError(path_, why.empty()
+                                 ? "has no scan that can be read, give a folder of scans or "
+                                   "a log"
+                                 : why);
 }
 
 std::optional<Scan> ScanInput::take(CloudRecord& record) {

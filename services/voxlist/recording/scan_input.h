@@ -26,9 +26,10 @@ struct Scan {
 /// The scans of a folder or a log, one by one, as the services get them over the bus.
 class ScanInput {
  public:
-  /// Throws FileError when the path is neither a folder of scans nor a log. Points outside the
-  /// limits are only told.
-  ScanInput(std::filesystem::path path, Console& console, const RangeLimits& limits = {});
+  /// Throws FileError when the path is neither a folder of scans nor a log (`prefix`: of its
+  /// channels). Points outside the limits are only told.
+  ScanInput(std::filesystem::path path, Console& console, const RangeLimits& limits = {},
+            const std::string& prefix = {});
 
   /// The next scan; nothing at the end, or after Ctrl-C. What cannot be read is left out. Throws
   /// FileError when there was not one scan, or when the scans' times are in another unit.

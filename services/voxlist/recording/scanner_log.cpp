@@ -58,24 +58,27 @@ void sort_by_time(calibration::CalibrationInput& input) {
 }  // namespace
 
 calibration::CalibrationInput read_scanner_log(const std::filesystem::path& path,
-                                               Console& console) {
+                                               const std::string& prefix, Console& console) {
   bus::EventLogReader log(path.string());
   Omissions omissions(console);
   ChannelCounts channels;
   Progress progress(console, "reading");
   calibration::CalibrationInput input;
+  for (const std::string& part : log.missing_parts())
+    omissions.add("missing parts", part + " is not there");
   while (input.lines.size() < kMostLines) {
-    const auto event = log.next();
+    auto event = log.next();
     if (!event) break;
     channels.add(event->channel);
+    if (!event->channel.starts_with(prefix)) continue;
+    event->channel.erase(0, prefix.size());
     take(*event, omissions, input);
     progress.show(static_cast<double>(log.position_bytes()) /
                   static_cast<double>(log.size_bytes()));
   }
   if (input.lines.empty()) {
-    throw io::FileError(path, fmt::format("has no {}; it holds {}. Record a minute while the "
-                                          "scanner runs",
-                                          bus::kLaser.name, channels.text()));
+    throw io::FileError(path, channels.why_without(bus::kLaser.name, prefix,
+                                                   ". Record a minute while the scanner runs"));
   }
   if (input.lines.size() == kMostLines) console.warn("the first ten minutes are enough");
   if (log.damaged_events() > 0) omissions.add("damaged events", path.string() + " is damaged");

@@ -33,9 +33,10 @@ StampedPose2 dated(StampedPose2 pose) {
 
 }  // namespace
 
-SimulatedLog::SimulatedLog(const std::string& path, const simulation::MirrorScannerConfig& scanner,
+SimulatedLog::SimulatedLog(const std::string& path, const std::string& prefix,
+                           const simulation::MirrorScannerConfig& scanner,
                            const scanner::CloudAssemblerConfig& assembler)
-    : log_(path), mirror_(clock_of(scanner)), assembler_(assembler) {}
+    : log_(path, prefix), mirror_(clock_of(scanner)), assembler_(assembler) {}
 
 void SimulatedLog::operator()(const simulation::SimulatedOdometry& event) {
   const StampedPose2 pose = dated(event.measured);

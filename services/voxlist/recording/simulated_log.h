@@ -26,7 +26,8 @@ class SimulatedLog {
   };
 
   /// Throws as EventLogWriter and CloudAssembler do.
-  SimulatedLog(const std::string& path, const simulation::MirrorScannerConfig& scanner,
+  SimulatedLog(const std::string& path, const std::string& prefix,
+               const simulation::MirrorScannerConfig& scanner,
                const scanner::CloudAssemblerConfig& assembler);
 
   // The run's events, in its order.
