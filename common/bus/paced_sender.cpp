@@ -12,10 +12,10 @@ constexpr std::int64_t kMaxPause_us = 60'000'000;
 
 }  // namespace
 
-bool PacedSender::push(std::size_t bytes, std::function<void()> send) {
+bool PacedSender::push(std::size_t bytes, std::function<void()>& send, std::deque<Item>& queue) {
   const auto size = static_cast<std::int64_t>(bytes);
   if (queued_bytes_ + size > options_.max_queued_bytes) return false;
-  queue_.push_back({size, std::move(send)});
+  queue.push_back({size, std::move(send)});
   queued_bytes_ += size;
   return true;
 }
@@ -27,16 +27,19 @@ void PacedSender::run(std::int64_t now_us) {
   last_run_us_ = now_us;
   budget_bytes_ =
       std::min(budget_bytes_ + pause_us * options_.bytes_per_ms / 1000, options_.burst_bytes);
-  while (!queue_.empty() && budget_bytes_ > 0) {
-    const Item item = std::move(queue_.front());
-    queue_.pop_front();
-    queued_bytes_ -= item.bytes;
-    budget_bytes_ -= item.bytes;
-    item.send();
-  }
+  while (!idle() && budget_bytes_ > 0) send_one(first_.empty() ? queue_ : first_);
+}
+
+void PacedSender::send_one(std::deque<Item>& queue) {
+  const Item item = std::move(queue.front());
+  queue.pop_front();
+  queued_bytes_ -= item.bytes;
+  budget_bytes_ -= item.bytes;
+  item.send();
 }
 
 void PacedSender::clear() {
+  first_.clear();
   queue_.clear();
   queued_bytes_ = 0;
 }

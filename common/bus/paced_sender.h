@@ -8,7 +8,7 @@
 namespace voxlist::bus {
 
 /// Sends queued messages a few at a time, so that a whole map never overruns a listener's receive
-/// buffer: lcm's sender does not pace. First in, first out.
+/// buffer: lcm's sender does not pace. First in, first out, but short ones may go before long ones.
 class PacedSender {
  public:
   struct Options {
@@ -27,12 +27,18 @@ class PacedSender {
 
   /// Queues a message of that many bytes, which `send` will send. False: the queue is full, nothing
   /// was queued.
-  bool push(std::size_t bytes, std::function<void()> send);
+  bool push(std::size_t bytes, std::function<void()> send) { return push(bytes, send, queue_); }
+
+  /// The same for what somebody waits for: it goes before all that came by push(), after what came
+  /// by push_first().
+  bool push_first(std::size_t bytes, std::function<void()> send) {
+    return push(bytes, send, first_);
+  }
 
   /// Sends what may be sent at this time. Call it often; time that goes back earns nothing.
   void run(std::int64_t now_us);
 
-  bool idle() const { return queue_.empty(); }
+  bool idle() const { return queue_.empty() && first_.empty(); }
   std::int64_t queued_bytes() const { return queued_bytes_; }
 
   /// Forgets what is queued: for a map that is no longer the current one.
@@ -44,8 +50,11 @@ class PacedSender {
     std::function<void()> send;
   };
 
+  bool push(std::size_t bytes, std::function<void()>& send, std::deque<Item>& queue);
+  void send_one(std::deque<Item>& queue);
+
   Options options_;
-  std::deque<Item> queue_;
+  std::deque<Item> first_, queue_;
   std::int64_t queued_bytes_ = 0;
   // May go below zero: a message goes out whole, and is paid for before the next.
   std::int64_t budget_bytes_ = 0;

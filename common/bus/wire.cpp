@@ -132,10 +132,10 @@ void walk(WireReader& in, const map_octree_t*) {
   in.skip(16 * kFloat);
 }
 
-void walk(WireReader& in, const map_request_t*) { in.skip(kInt64 + 2 * kInt32); }
+void walk(WireReader& in, const map_request_t*) { in.skip(3 * kInt64 + 2 * kInt32); }
 
 void walk(WireReader& in, const map_update_t*) {
-  in.skip(4 * kInt64 + 2 * kInt32 + 2 * kDouble);
+  in.skip(5 * kInt64 + 2 * kInt32 + 2 * kDouble);
   in.array(kVoxelBlock);
   in.array(kVoxelBlock);
 }

@@ -14,14 +14,24 @@
 #include "voxlist/bus/bus.h"
 #include "voxlist/bus/convert.h"
 #include "voxlist/bus/health.h"
-#include "voxlist/bus/map_convert.h"
+#include "voxlist/bus/maps/map_convert.h"
 
 namespace voxlist::services {
 namespace {
 
-// A missing map is asked for this often at most (us): an answer takes time, and a whole map is 300
-// MB at most.
-constexpr std::int64_t kRequestPeriod_us = 1'000'000;
+// Points of the first cloud that are farther away (m) do not stand in for the map.
+constexpr double kOriginRange_m = 100.0;
+
+// Clouds in a row that the first cloud cannot place, after which it was a bad one (a covered lens,
+// a robot that was carried away) and another one may be the origin of a map that is still empty.
+constexpr int kLostFromOrigin = 10;
+
+// Whether a map can be begun by the cloud: it puts something into it.
+bool can_be_origin(const Cloud& cloud) {
+  OccupancyMap map;
+  add_scan(cloud, Pose3::Identity(), kOriginRange_m, map);
+  return !map.empty();
+}
 
 localisation_t to_message(const matching::Localisation& result) {
   localisation_t message{};
@@ -54,6 +64,7 @@ LocaliserService::LocaliserService(bus::Bus& bus, bus::Health& health,
       health_(health),
       config_(config),
       localiser_(map_, config.localiser),
+      mapper_(health),
       cloud_input_(health),
       odometry_check_(health, {.channel = "ODOMETRY",
                                .remedy = "is the robot base running?",
@@ -93,22 +104,33 @@ void LocaliserService::take_odometry(const pose_t& message) {
 }
 
 void LocaliserService::take_map(const map_update_t& message) {
-  const auto before = assembler_.held();
-  for (const bus::MapChange& change : assembler_.add(message)) {
+  for (bus::MapChange& change : mapper_.take(message)) {
+    // What the first cloud stood in for is here now.
+    if (origin_ && change.base_version == 0) change.base_version = bus::kWholeMap;
     const bus::AppliedChange applied = bus::apply(change, map_);
     if (!applied.replaced) localiser_.map_grew(applied.grown);
   }
-  const auto& held = assembler_.held();
-  if (held && before && held->map_id != before->map_id) {
-    localiser_.forget();
-    T_map_odom_.reset();
-  }
+  follow_mapper();
+}
+
+// Whether or not a map has come: what was made of another one is worth nothing.
+void LocaliserService::follow_mapper() {
+  if (mapper_.held() && mapper_.held()->version > 0) origin_.reset();
+  if (mapper_.map_id() == map_id_) return;
+  map_id_ = mapper_.map_id();
+  if (!mapper_.held()) map_ = {};
+  origin_.reset();
+  localiser_.forget();
+  T_map_odom_.reset();
+  last_pose_.reset();
+  unanswered_utime_us_.reset();
 }
 
 void LocaliserService::tick(std::int64_t now_us) {
   cloud_input_.tick(now_us);
   odometry_check_.tick(now_us);
-  if (assembler_.needs_request()) request_map(now_us);
+  if (const auto request = mapper_.tick(now_us)) bus_.publish(bus::kMapRequest, *request);
+  follow_mapper();
   if (waiting_.empty()) return;
   if (unanswered_utime_us_ && !unanswered_since_us_) unanswered_since_us_ = now_us;
   if (!map_is_due(now_us)) return;
@@ -118,33 +140,24 @@ void LocaliserService::tick(std::int64_t now_us) {
   health_.add_latency_us(std::max<std::int64_t>(0, now_us - waiting.arrival_us));
 }
 
-void LocaliserService::request_map(std::int64_t now_us) {
-  if (last_request_us_ && now_us - *last_request_us_ < kRequestPeriod_us) return;
-  last_request_us_ = now_us;
-  map_request_t request{};
-  request.utime = now_us;
-  request.want = map_request_t::WANT_MAP;
-  bus_.publish(bus::kMapRequest, request);
-}
-
 // Whether the map that the waiting cloud is to be matched with is here, or is not worth waiting for
 // any longer.
-bool LocaliserService::map_is_due(std::int64_t now_us) const {
+bool LocaliserService::map_is_due(std::int64_t now_us) {
   if (!unanswered_utime_us_) return true;
-  if (assembler_.held() && assembler_.held()->utime_us >= *unanswered_utime_us_) return true;
-  return static_cast<double>(now_us - unanswered_since_us_.value_or(now_us)) * 1e-6 >=
-         config_.map_wait_s;
+  if (mapper_.held() && mapper_.held()->utime_us >= *unanswered_utime_us_) return true;
+  const std::int64_t waited_us = now_us - unanswered_since_us_.value_or(now_us);
+  if (static_cast<double>(waited_us) * 1e-6 < config_.map_wait_s) return false;
+  mapper_.doubt();
+  return true;
 }
 
 void LocaliserService::localise(const Cloud& cloud) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
-  const auto& held = assembler_.held();
-  matching::Localisation result;
-  result.utime_us = cloud.utime_us;
+  const auto& held = mapper_.held();
   const auto T_odom_base = odometry_.at(cloud.utime_us);
   compare_times(cloud.utime_us, T_odom_base.has_value());
-  if (held) result = localiser_.localise(cloud, T_odom_base);
+  const matching::Localisation result = locate(cloud, T_odom_base);
 
   localisation_t message = to_message(result);
   if (held) {
@@ -169,6 +182,35 @@ void LocaliserService::localise(const Cloud& cloud) {
   bus_.publish(bus::kLocalisation, message);
 }
 
+matching::Localisation LocaliserService::locate(const Cloud& cloud,
+                                                const std::optional<Pose2>& T_odom_base) {
+  const auto& held = mapper_.held();
+  if (held && held->version == 0) return locate_without_map(cloud, T_odom_base);
+  if (held && !map_.empty()) return localiser_.localise(cloud, T_odom_base);
+  matching::Localisation lost;
+  lost.utime_us = cloud.utime_us;
+  return lost;
+}
+
+// The mapper's map is empty: the first cloud is its origin, and the later ones are placed by it.
+matching::Localisation LocaliserService::locate_without_map(
+    const Cloud& cloud, const std::optional<Pose2>& T_odom_base) {
+  matching::Localisation result;
+  result.utime_us = cloud.utime_us;
+  if (!origin_ && !can_be_origin(cloud)) return result;
+  if (origin_ && map_.empty()) add_scan(*origin_, Pose3::Identity(), kOriginRange_m, map_);
+  result = localiser_.localise(cloud, T_odom_base);
+  if (!origin_ && result.tracking()) origin_ = cloud;
+  lost_from_origin_ = result.tracking() ? 0 : lost_from_origin_ + 1;
+  if (origin_ && lost_from_origin_ >= kLostFromOrigin) {
+    health_.count("origin_given_up");
+    origin_.reset();
+    map_ = {VoxelMap(map_.occupied.resolution_m()), VoxelMap(map_.passed.resolution_m())};
+    localiser_.forget();
+  }
+  return result;
+}
+
 void LocaliserService::compare_times(std::int64_t cloud_utime_us, bool has_odometry) {
   const auto newest_us = odometry_.newest_utime_us();
   if (has_odometry || !newest_us) return;
@@ -182,7 +224,7 @@ void LocaliserService::compare_times(std::int64_t cloud_utime_us, bool has_odome
 
 void LocaliserService::tell(matching::LocalisationState state) {
   using State = bus::Health::State;
-  const bool has_map = assembler_.held().has_value();
+  const bool has_map = mapper_.held().has_value();
   const bool is_sure = state == matching::LocalisationState::kTracking;
   health_.raise("map", State::kWarning, has_map ? "" : "waits for a map: is the mapper running?");
   health_.raise("pose", State::kWarning, is_sure || !has_map ? "" : name(state));

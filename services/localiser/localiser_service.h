@@ -4,10 +4,10 @@
 #include <deque>
 #include <optional>
 
-#include "voxlist/bus/map_chunks.h"
 #include "voxlist/geometry/odometry_buffer.h"
 #include "voxlist/matching/localisation/localiser.h"
 #include "voxlist/service/inputs/cloud_input.h"
+#include "voxlist/service/inputs/map_follower.h"
 
 namespace voxlist {
 class map_update_t;
@@ -45,6 +45,9 @@ struct LocaliserServiceConfig {
 /// A cloud waits until the mapper has decided on the cloud before it (bounded by map_wait_s): so a
 /// run gives the same map as its replay, and as the desk tool. A few clouds may wait; beyond that
 /// the oldest is dropped and counted.
+///
+/// Where the mapper says that its map is empty, the first cloud is the map's origin, and no other
+/// is while that map lives: until the mapper has it, it stands in for the map.
 class LocaliserService {
  public:
   LocaliserService(bus::Bus& bus, bus::Health& health, const LocaliserServiceConfig& config);
@@ -64,9 +67,12 @@ class LocaliserService {
   void take_cloud(const pointcloud_t& message);
   void take_odometry(const pose_t& message);
   void take_map(const map_update_t& message);
-  void request_map(std::int64_t now_us);
-  bool map_is_due(std::int64_t now_us) const;
+  void follow_mapper();
+  bool map_is_due(std::int64_t now_us);
   void localise(const Cloud& cloud);
+  matching::Localisation locate(const Cloud& cloud, const std::optional<Pose2>& T_odom_base);
+  matching::Localisation locate_without_map(const Cloud& cloud,
+                                            const std::optional<Pose2>& T_odom_base);
   void tell(matching::LocalisationState state);
   void compare_times(std::int64_t cloud_utime_us, bool has_odometry);
   void publish_pose(std::int64_t utime_us, const Pose2& pose);
@@ -76,12 +82,15 @@ class LocaliserService {
   const LocaliserServiceConfig config_;
   OccupancyMap map_;
   matching::Localiser localiser_;
-  bus::MapAssembler assembler_;
+  service::MapFollower mapper_;
+  std::optional<std::int64_t> map_id_;  // of the map that map_ is of
+  // The cloud that defined the origin of an empty map, and how many in a row it could not place.
+  std::optional<Cloud> origin_;
+  int lost_from_origin_ = 0;
   service::CloudInput cloud_input_;
   service::ChannelCheck odometry_check_;
   OdometryBuffer odometry_;
   std::deque<Waiting> waiting_;  // oldest first
-  std::optional<std::int64_t> last_request_us_;
   // The last cloud that the mapper may have added, and since when its answer is awaited.
   std::optional<std::int64_t> unanswered_utime_us_;
   std::optional<std::int64_t> unanswered_since_us_;

@@ -17,7 +17,8 @@
 #include "voxlist/bus/bus.h"
 #include "voxlist/bus/convert.h"
 #include "voxlist/bus/health.h"
-#include "voxlist/bus/map_convert.h"
+#include "voxlist/bus/maps/map_convert.h"
+#include "voxlist/bus/maps/map_faults.h"
 #include "voxlist/io/files/file.h"
 #include "voxlist/mapping/map_views.h"
 #include "voxlist/system/state_folder.h"
@@ -29,11 +30,15 @@ namespace {
 // oldest is forgotten, and a keyframe is missed.
 constexpr std::size_t kRecentClouds = 16;
 
-// Time from one save on request to the next (us): the map's picture takes a while, and anyone may
-// ask.
-constexpr std::int64_t kSavePause_us = 1'000'000;
-
 constexpr std::int64_t kSecond_us = 1'000'000;
+
+// Time from one save on request to the next (us), or this many times what the last one took: the
+// map's picture takes a while, and anyone may ask.
+constexpr std::int64_t kSavePause_us = kSecond_us;
+constexpr std::int64_t kSaveShare = 10;
+
+// Who speaks of another map is told of this one so often at most (us).
+constexpr std::int64_t kAnnouncePause_us = kSecond_us / 10;
 
 // How often the folder is looked at, and what could not be written is tried again: a folder that is
 // gone is told within a second.
@@ -41,6 +46,10 @@ constexpr std::int64_t kLookPeriod_us = kSecond_us / 2;
 
 // Silence after which another mapper is gone; its HEALTH comes once a second.
 constexpr std::int64_t kRivalGone_us = 3 * kSecond_us;
+
+// Farthest from the origin that a robot maps (m): what it sees from there is within the map's
+// reach.
+constexpr double kDrive_m = bus::kMapReach_m - 1000.0;
 
 // An id that no other map has: the time when it was begun.
 std::int64_t new_map_id() {
@@ -51,8 +60,7 @@ std::int64_t new_map_id() {
 std::optional<Pose2> pose_of(const localisation_t& message) {
   if (message.state != localisation_t::STATE_TRACKING || message.modes.empty()) return std::nullopt;
   const double* pose = message.modes.front().pose;
-  const bool sane = std::abs(pose[0]) < bus::kMaxPosition_m &&
-                    std::abs(pose[1]) < bus::kMaxPosition_m && std::isfinite(pose[2]);
+  const bool sane = std::hypot(pose[0], pose[1]) < kDrive_m && std::isfinite(pose[2]);
   return sane ? std::optional(Pose2{pose[0], pose[1], wrap_angle(pose[2])}) : std::nullopt;
 }
 
@@ -66,7 +74,8 @@ MapperService::MapperService(bus::Bus& bus, bus::Health& health, const MapperSer
       keyframes_(health, in_state_folder(config.folder), config.extend, new_map_id(),
                  builder_.poses(),
                  [this](mapping::Keyframe keyframe) { restore(std::move(keyframe)); }),
-      map_id_(keyframes_.map_id()) {
+      map_id_(keyframes_.map_id()),
+      cloud_input_(health) {
   bus_.subscribe(bus::kCloud, [this](const pointcloud_t& message) { take_cloud(message); });
   bus_.subscribe(bus::kLocalisation,
                  [this](const localisation_t& message) { take_localisation(message); });
@@ -80,39 +89,59 @@ void MapperService::restore(mapping::Keyframe keyframe) {
 }
 
 void MapperService::take_cloud(const pointcloud_t& message) {
-  auto received = bus::from_message(message);
-  if (!received.cloud) return health_.count("CLOUD/" + received.refusal);
-  recent_clouds_.push_back(std::move(*received.cloud));
+  auto cloud = cloud_input_.take(message);
+  if (!cloud) return;
+  recent_clouds_.push_back(std::move(*cloud));
   if (recent_clouds_.size() > kRecentClouds) recent_clouds_.pop_front();
 }
 
 void MapperService::take_localisation(const localisation_t& message) {
-  if (message.map_id != map_id_) return health_.count("LOCALISATION/other_map");
+  if (!bus::is_sane_utime(message.utime)) return health_.count("LOCALISATION/bad_utime");
+  if (message.map_id != map_id_) {
+    health_.count("LOCALISATION/other_map");
+    if (last_announced_us_ && now_us_ - *last_announced_us_ < kAnnouncePause_us) return;
+    last_announced_us_ = now_us_;
+    return send_word(0);
+  }
   decided_utime_us_ = message.utime;
   const std::int64_t before = version();
-  if (const auto pose = pose_of(message)) {
-    path_.add({message.utime, *pose});
-    if (config_.extend && keyframes_.has_room()) add(message.utime, *pose);
-  }
+  decide(message);
   send_change(before);
 }
 
-void MapperService::add(std::int64_t utime_us, const Pose2& pose) {
-  const auto cloud = std::find_if(recent_clouds_.begin(), recent_clouds_.end(),
-                                  [&](const Cloud& c) { return c.utime_us == utime_us; });
-  if (cloud == recent_clouds_.end()) return health_.count("LOCALISATION/cloud_missing");
-  if (!builder_.wants(*cloud, pose)) return;
-  keyframes_.add(builder_.add({to_pose3(pose), std::move(*cloud)}));
+// A cloud is decided on once: who speaks of it again, and otherwise, is not heard.
+void MapperService::decide(const localisation_t& message) {
+  if (message.map_version != version()) return health_.count("LOCALISATION/other_version");
+  auto cloud = take_waiting_cloud(message.utime);
+  const auto pose = pose_of(message);
+  if (!pose) return;
+  path_.add({message.utime, *pose});
+  if (!config_.extend || !keyframes_.has_room()) return;
+  if (!cloud) return health_.count("LOCALISATION/cloud_missing");
+  if (builder_.wants(*cloud, *pose)) add(std::move(*cloud), *pose);
+}
+
+// Those before it are not decided on any more.
+std::optional<Cloud> MapperService::take_waiting_cloud(std::int64_t utime_us) {
+  const auto found = std::ranges::find(recent_clouds_, utime_us, &Cloud::utime_us);
+  if (found == recent_clouds_.end()) return std::nullopt;
+  Cloud cloud = std::move(*found);
+  recent_clouds_.erase(recent_clouds_.begin(), found + 1);
+  return cloud;
+}
+
+void MapperService::add(Cloud cloud, const Pose2& pose) {
+  keyframes_.add(builder_.add({to_pose3(pose), std::move(cloud)}));
   path_.mark_keyframe();
-  recent_clouds_.erase(recent_clouds_.begin(), cloud + 1);
   health_.count("keyframes");
   send_keyframes(keyframes_.size() - 1);
 }
 
 void MapperService::take_request(const map_request_t& message) {
+  send_word(message.utime);
   switch (message.want) {
     case map_request_t::WANT_MAP:
-      if (whole_maps_queued_ == 0) send_change(bus::kWholeMap);
+      if (has_use_for_map(message) && whole_maps_queued_ == 0) send_change(bus::kWholeMap);
       return;
     case map_request_t::WANT_KEYFRAMES:
       return resend_keyframes(static_cast<std::size_t>(std::max(0, message.first)));
@@ -124,13 +153,30 @@ void MapperService::take_request(const map_request_t& message) {
   }
 }
 
-void MapperService::send_change(std::int64_t base_version) {
+bus::MapChange MapperService::nothing_new() const {
   bus::MapChange change;
   change.utime_us = decided_utime_us_;
   change.map_id = map_id_;
-  change.version = version();
-  change.base_version = base_version;
+  change.version = change.base_version = version();
   change.resolution = bus::resolution_of(builder_.map());
+  return change;
+}
+
+// An empty map is told whole.
+void MapperService::send_word(std::int64_t answers) {
+  bus::MapChange word = nothing_new();
+  if (version() == 0) word.base_version = bus::kWholeMap;
+  auto message = std::make_shared<map_update_t>(std::move(bus::split_map(std::move(word)).front()));
+  message->answers = answers;
+  const auto bytes = static_cast<std::size_t>(message->getEncodedSize());
+  const bool queued =
+      sender_.push_first(bytes, [this, message] { bus_.publish(bus::kMapUpdate, *message); });
+  if (!queued) health_.count("MAP_UPDATE/queue_full");
+}
+
+void MapperService::send_change(std::int64_t base_version) {
+  bus::MapChange change = nothing_new();
+  change.base_version = base_version;
   if (base_version == bus::kWholeMap) {
     change.blocks = bus::to_messages(builder_.map());
   } else if (base_version != version()) {
@@ -142,13 +188,21 @@ void MapperService::send_change(std::int64_t base_version) {
     const bool last_of_whole = whole && i + 1 == messages.size();
     auto message = std::make_shared<map_update_t>(std::move(messages[i]));
     const auto bytes = static_cast<std::size_t>(message->getEncodedSize());
-    const bool queued = sender_.push(bytes, [this, message, last_of_whole] {
+    const auto send = [this, message, last_of_whole] {
       bus_.publish(bus::kMapUpdate, *message);
       if (last_of_whole) --whole_maps_queued_;
-    });
+    };
+    // The localiser waits for what is new, and whole maps take a while.
+    const bool queued = whole ? sender_.push(bytes, send) : sender_.push_first(bytes, send);
     if (!queued) return health_.count("MAP_UPDATE/queue_full");
     if (last_of_whole) ++whole_maps_queued_;
   }
+}
+
+// Not who has another map: before it drops that, it asks again.
+bool MapperService::has_use_for_map(const map_request_t& message) const {
+  if (version() == 0) return false;  // the answer has said all
+  return message.map_id == 0 || (message.map_id == map_id_ && message.version != version());
 }
 
 void MapperService::send_keyframes(std::size_t first) {
@@ -181,13 +235,11 @@ void MapperService::take_health(const health_t& message) {
 }
 
 void MapperService::tick(std::int64_t now_us) {
+  if (now_us_ == 0) send_word(0);  // whoever has another map drops it
   now_us_ = now_us;
+  cloud_input_.tick(now_us);
   sender_.run(now_us);
-  if (save_wanted_ && (!last_save_us_ || now_us - *last_save_us_ >= kSavePause_us)) {
-    save_wanted_ = false;
-    last_save_us_ = now_us;
-    save();
-  }
+  if (save_wanted_ && (!next_save_us_ || now_us >= *next_save_us_)) save_on_request();
   if (rival_heard_us_ && now_us - *rival_heard_us_ > kRivalGone_us) {
     rival_heard_us_.reset();
     health_.clear("rival");
@@ -195,6 +247,16 @@ void MapperService::tick(std::int64_t now_us) {
   if (last_look_us_ && now_us - *last_look_us_ < kLookPeriod_us) return;
   last_look_us_ = now_us;
   keyframes_.look_after();
+}
+
+void MapperService::save_on_request() {
+  using Clock = std::chrono::steady_clock;
+  const auto start = Clock::now();
+  save_wanted_ = false;
+  save();
+  const std::chrono::microseconds took =
+      std::chrono::duration_cast<std::chrono::microseconds>(Clock::now() - start);
+  next_save_us_ = now_us_ + std::max(kSavePause_us, kSaveShare * took.count());
 }
 
 void MapperService::save() {

@@ -7,8 +7,10 @@
 
 #include "services/mapper/keyframe_keeper.h"
 #include "services/mapper/travelled_path.h"
+#include "voxlist/bus/maps/map_chunks.h"
 #include "voxlist/bus/paced_sender.h"
 #include "voxlist/mapping/map_builder.h"
+#include "voxlist/service/inputs/cloud_input.h"
 
 namespace voxlist {
 class health_t;
@@ -44,9 +46,12 @@ struct MapperServiceConfig {
 /// CLOUD, LOCALISATION and MAP_REQUEST in; MAP_UPDATE and KEYFRAME out; the map folder on disk.
 ///
 /// Each LOCALISATION is answered by a MAP_UPDATE, an empty one when nothing was added: the
-/// localiser waits for it. Each keyframe goes to disk at once, so that neither kill -9 nor a power
-/// cut loses one; a disk that is full is an error in HEALTH until what could not be written is. A
-/// folder that vanishes costs nothing either: the map goes on in a fresh one beside it.
+/// localiser waits for it. A pose counts only when it was found in the map as it is: of this id and
+/// version. Each request is answered by the map's id and version, which are also told at the start
+/// and to who speaks of another map. Each keyframe goes to disk at once, so that neither kill -9
+/// nor a power cut loses one; a disk that is full is an error in HEALTH until what could not be
+/// written is. A folder that vanishes costs nothing either: the map goes on in a fresh one beside
+/// it.
 class MapperService {
  public:
   /// Loads the folder's map. Throws FileError when there is one that cannot be read, when no folder
@@ -67,12 +72,18 @@ class MapperService {
   void take_request(const map_request_t& message);
   void take_health(const health_t& message);
   void restore(mapping::Keyframe keyframe);
-  void add(std::int64_t utime_us, const Pose2& pose);
+  void decide(const localisation_t& message);
+  void add(Cloud cloud, const Pose2& pose);
+  std::optional<Cloud> take_waiting_cloud(std::int64_t utime_us);
   void send_change(std::int64_t base_version);
+  void send_word(std::int64_t answers);
+  bus::MapChange nothing_new() const;
+  bool has_use_for_map(const map_request_t& message) const;
   void send_keyframes(std::size_t first);
   void resend_keyframes(std::size_t first);
   void send_keyframe(std::size_t index);
   void save();
+  void save_on_request();
   std::int64_t version() const { return static_cast<std::int64_t>(builder_.poses().size()); }
 
   bus::Bus& bus_;
@@ -82,6 +93,7 @@ class MapperService {
   TravelledPath path_;
   KeyframeKeeper keyframes_;
   const std::int64_t map_id_;
+  service::CloudInput cloud_input_;
   std::deque<Cloud> recent_clouds_;
   bus::PacedSender sender_;
   std::int64_t decided_utime_us_ = 0;
@@ -89,7 +101,8 @@ class MapperService {
   std::int64_t whole_maps_queued_ = 0;
   std::int64_t resends_queued_ = 0;
   bool save_wanted_ = false;
-  std::optional<std::int64_t> last_save_us_;
+  std::optional<std::int64_t> next_save_us_;
+  std::optional<std::int64_t> last_announced_us_;
   std::int64_t now_us_ = 0;
   std::optional<std::int64_t> last_look_us_;
   std::optional<std::int64_t> rival_heard_us_;

@@ -82,7 +82,7 @@ class Filler {
   void fill(gauge_t& m) { fill_all(m.name, m.value); }
   void fill(pose_mode_t& m) { fill_all(m.pose, m.covariance, m.overlap, m.probability); }
   void fill(voxel_block_t& m) { fill_all(m.x, m.y, m.z, m.bits); }
-  void fill(map_request_t& m) { fill_all(m.utime, m.want, m.first); }
+  void fill(map_request_t& m) { fill_all(m.utime, m.want, m.first, m.map_id, m.version); }
   void fill(rigid_transform_t& m) { fill_all(m.utime, m.trans, m.quat); }
   void fill(pose_t& m) { fill_all(m.utime, m.pos, m.vel, m.orientation, m.rotation_rate, m.accel); }
 
@@ -105,8 +105,8 @@ class Filler {
   }
 
   void fill(map_update_t& m) {
-    fill_all(m.utime, m.map_id, m.version, m.base_version, m.chunk, m.n_chunks, m.resolution_m,
-             m.passed_resolution_m);
+    fill_all(m.utime, m.map_id, m.answers, m.version, m.base_version, m.chunk, m.n_chunks,
+             m.resolution_m, m.passed_resolution_m);
     list(m.n_blocks, m.blocks);
     list(m.n_passed_blocks, m.passed_blocks);
   }

@@ -17,7 +17,7 @@
 #include "tests/bus/forge.h"
 #include "voxlist/bus/bus.h"
 #include "voxlist/bus/convert.h"
-#include "voxlist/bus/map_convert.h"
+#include "voxlist/bus/maps/map_convert.h"
 
 namespace voxlist::bus {
 namespace {

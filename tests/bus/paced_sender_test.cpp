@@ -30,6 +30,16 @@ TEST(PacedSender, SendsInOrderAndNoFasterThanItsRate) {
   EXPECT_EQ(sender.queued_bytes(), 0);
 }
 
+TEST(PacedSender, SendsFirstWhatSomebodyWaitsFor) {
+  PacedSender sender(kSlow);
+  std::vector<int> sent;
+  for (const int i : {3, 4}) sender.push(2000, [&sent, i] { sent.push_back(i); });
+  for (const int i : {1, 2}) sender.push_first(2000, [&sent, i] { sent.push_back(i); });
+  EXPECT_EQ(sender.queued_bytes(), 8000);
+  for (std::int64_t now_us = 0; !sender.idle(); now_us += 1000) sender.run(now_us);
+  EXPECT_EQ(sent, (std::vector<int>{1, 2, 3, 4}));
+}
+
 TEST(PacedSender, PaysForALargeMessageAfterwards) {
   PacedSender sender(kSlow);
   int sent = 0;

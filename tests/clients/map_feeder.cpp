@@ -27,7 +27,8 @@ struct Feeder {
   void take(const map_update_t& message) {
     const bool answered = !map_id || message.utime == asked_us;
     map_id = message.map_id;
-    if (answered) std::cout << (version = message.version) << std::endl;
+    version = message.version;
+    if (answered) std::cout << version << std::endl;
     waiting = waiting && !answered;
   }
 
@@ -46,6 +47,7 @@ struct Feeder {
     localisation_t message{};
     message.utime = cloud.utime_us;
     message.map_id = *map_id;
+    message.map_version = version;
     message.state = localisation_t::STATE_TRACKING;
     message.n_modes = 1;
     message.modes.resize(1);

@@ -3,6 +3,7 @@
 // Usage: record_room LOG
 #include <chrono>
 #include <voxlist/localisation_t.hpp>
+#include <voxlist/map_request_t.hpp>
 #include <voxlist/map_update_t.hpp>
 #include <voxlist/obstacles_t.hpp>
 #include <voxlist/pointcloud_t.hpp>
@@ -10,11 +11,12 @@
 
 #include "services/localiser/localiser_service.h"
 #include "services/obstacle_detector/obstacle_detector_service.h"
+#include "tests/stand_in_mapper.h"
 #include "voxlist/bus/bus.h"
 #include "voxlist/bus/convert.h"
 #include "voxlist/bus/event_log.h"
 #include "voxlist/bus/health.h"
-#include "voxlist/bus/map_convert.h"
+#include "voxlist/bus/maps/map_convert.h"
 
 namespace voxlist::services {
 namespace {
@@ -60,14 +62,6 @@ bus::MapChange map_of_room() {
   return change;
 }
 
-// What a mapper answers that did not add the cloud.
-bus::MapChange nothing_new(std::int64_t utime_us, bus::MapChange map) {
-  map.utime_us = utime_us;
-  map.base_version = map.version;
-  map.blocks = {};
-  return map;
-}
-
 // A service on a bus of its own; what it says goes into the log.
 template <class Service, class Config>
 class Recorded {
@@ -85,8 +79,18 @@ class Recorded {
   void hear(bus::Channel<M> channel, const M& message) {
     bus_.publish(channel, message);
     bus_.handle(std::chrono::milliseconds(0));
-    service_.tick(message.utime);
+    run(message.utime);
+  }
+
+  void run(std::int64_t now_us) {
+    service_.tick(now_us);
     bus_.handle(std::chrono::milliseconds(0));
+  }
+
+  void ask(const test::StandInMapper& mapper) {
+    bus_.subscribe(bus::kMapRequest, [&](const map_request_t& message) {
+      for (const auto& part : mapper.answer(message)) bus_.publish(bus::kMapUpdate, part);
+    });
   }
 
  private:
@@ -103,14 +107,15 @@ void record(const std::string& path) {
   localiser.record(bus::kLocalisation);
   Recorded<ObstacleDetectorService, planning::ObstacleConfig> detector(log);
   detector.record(bus::kObstacles);
-  const bus::MapChange map = map_of_room();
-  for (const auto& part : bus::split_map(map)) localiser.hear(bus::kMapUpdate, part);
+  test::StandInMapper mapper(map_of_room());
+  localiser.ask(mapper);
+  for (int i = 0; i < 3; ++i) localiser.run(kStart_us);
   for (int i = 0; i < kClouds; ++i) {
     const pointcloud_t cloud = bus::to_message(seen(i), "base", i);
     log.write(bus::kCloud, cloud.utime, cloud);
     localiser.hear(bus::kCloud, cloud);
-    for (const auto& part : bus::split_map(nothing_new(cloud.utime, map)))
-      localiser.hear(bus::kMapUpdate, part);
+    mapper.map().utime_us = cloud.utime;
+    for (const auto& part : mapper.word()) localiser.hear(bus::kMapUpdate, part);
     detector.hear(bus::kCloud, cloud);
   }
   log.close();

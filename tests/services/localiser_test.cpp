@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
-#include <random>
+#include <optional>
 #include <vector>
 #include <voxlist/localisation_t.hpp>
 #include <voxlist/map_request_t.hpp>
@@ -10,10 +10,11 @@
 #include <voxlist/pose_t.hpp>
 
 #include "services/localiser/localiser_service.h"
+#include "tests/stand_in_mapper.h"
 #include "voxlist/bus/bus.h"
 #include "voxlist/bus/convert.h"
 #include "voxlist/bus/health.h"
-#include "voxlist/bus/map_convert.h"
+#include "voxlist/bus/maps/map_convert.h"
 
 namespace voxlist::services {
 namespace {
@@ -42,7 +43,10 @@ struct Scene {
     bus.subscribe(bus::kLocalisation,
                   [this](const localisation_t& m) { localisations.push_back(m); });
     bus.subscribe(bus::kPose, [this](const pose_t& m) { poses.push_back(m); });
-    bus.subscribe(bus::kMapRequest, [this](const map_request_t& m) { requests.push_back(m); });
+    bus.subscribe(bus::kMapRequest, [this](const map_request_t& m) {
+      requests.push_back(m);
+      if (mapper) publish(mapper->answer(m));
+    });
   }
 
   void run(std::int64_t now_us) {
@@ -51,24 +55,34 @@ struct Scene {
     bus.handle(std::chrono::milliseconds(0));
   }
 
-  void send_map(const OccupancyMap& map, std::int64_t utime_us, std::int64_t map_id = 7) {
+  void publish(const std::vector<map_update_t>& messages) {
+    for (const map_update_t& message : messages) bus.publish(bus::kMapUpdate, message);
+  }
+
+  // A mapper that has had the map from a second before now_us on.
+  void begin(const OccupancyMap& map, std::int64_t now_us, std::int64_t map_id = 7) {
     bus::MapChange change;
-    change.utime_us = utime_us;
+    change.utime_us = now_us - 1'000'000;
     change.map_id = map_id;
     change.version = map.empty() ? 0 : 1;
     change.resolution = bus::resolution_of(map);
     change.blocks = bus::to_messages(map);
-    for (const auto& message : bus::split_map(std::move(change)))
-      bus.publish(bus::kMapUpdate, message);
+    mapper.emplace(std::move(change));
+    publish(mapper->word());
+    for (int i = -10; i < 0; ++i) run(now_us + i * 100'000);
   }
 
-  void send_cloud(std::int64_t utime_us) {
-    bus.publish(bus::kCloud, bus::to_message(room(utime_us), "base", 0));
+  // The room as it is seen x_m ahead.
+  void send_cloud(std::int64_t utime_us, float x_m = 0.F) {
+    Cloud cloud = room(utime_us);
+    for (auto& point : cloud.points) point.x() -= x_m;
+    bus.publish(bus::kCloud, bus::to_message(cloud, "base", 0));
   }
 
   bus::Bus bus{{.url = "memq://", .prefix = ""}};
   bus::Health health{"localiser"};
   LocaliserService service;
+  std::optional<test::StandInMapper> mapper;
   std::vector<localisation_t> localisations;
   std::vector<pose_t> poses;
   std::vector<map_request_t> requests;
@@ -80,11 +94,11 @@ OccupancyMap map_of_room() {
   return map;
 }
 
-TEST(LocaliserService, AsksForAMapOnceASecondAndClaimsNoPoseWithoutOne) {
+TEST(LocaliserService, AsksForAMapTwiceASecondAndClaimsNoPoseWithoutOne) {
   Scene scene;
   scene.send_cloud(kStart_us);
   for (int i = 0; i <= 30; ++i) scene.run(kStart_us + i * 100'000);
-  EXPECT_EQ(scene.requests.size(), 4u);
+  EXPECT_EQ(scene.requests.size(), 7u);
   ASSERT_EQ(scene.localisations.size(), 1u);
   EXPECT_EQ(scene.localisations[0].state, localisation_t::STATE_LOST);
   EXPECT_TRUE(scene.poses.empty());
@@ -92,7 +106,7 @@ TEST(LocaliserService, AsksForAMapOnceASecondAndClaimsNoPoseWithoutOne) {
 
 TEST(LocaliserService, AnEmptyMapIsBegunByTheFirstCloud) {
   Scene scene;
-  scene.send_map({}, 0);
+  scene.begin({}, kStart_us);
   scene.send_cloud(kStart_us);
   scene.run(kStart_us);
   ASSERT_EQ(scene.localisations.size(), 1u);
@@ -104,7 +118,7 @@ TEST(LocaliserService, AnEmptyMapIsBegunByTheFirstCloud) {
 
 TEST(LocaliserService, FindsACloudInTheMapThatItWasSent) {
   Scene scene;
-  scene.send_map(map_of_room(), 0);
+  scene.begin(map_of_room(), kStart_us);
   scene.send_cloud(kStart_us);
   scene.run(kStart_us);
   ASSERT_EQ(scene.localisations.size(), 1u);
@@ -118,20 +132,14 @@ TEST(LocaliserService, FindsACloudInTheMapThatItWasSent) {
 
 TEST(LocaliserService, TheNextCloudWaitsForTheMappersWordButNotForEver) {
   Scene scene;
-  scene.send_map(map_of_room(), 0);
+  scene.begin(map_of_room(), kStart_us);
   scene.send_cloud(kStart_us);
   scene.run(kStart_us);
   scene.send_cloud(kStart_us + 1'000'000);
   scene.run(kStart_us + 1'000'000);
   EXPECT_EQ(scene.localisations.size(), 1u);
-  bus::MapChange nothing_new{.utime_us = kStart_us,
-                             .map_id = 7,
-                             .version = 1,
-                             .base_version = 1,
-                             .resolution = bus::resolution_of({}),
-                             .blocks = {}};
-  for (const auto& message : bus::split_map(nothing_new))
-    scene.bus.publish(bus::kMapUpdate, message);
+  scene.mapper->map().utime_us = kStart_us;
+  scene.publish(scene.mapper->word());
   scene.run(kStart_us + 1'000'001);
   EXPECT_EQ(scene.localisations.size(), 2u);
 
@@ -144,7 +152,7 @@ TEST(LocaliserService, TheNextCloudWaitsForTheMappersWordButNotForEver) {
 
 TEST(LocaliserService, PublishesPosesBetweenCloudsFromOdometry) {
   Scene scene;
-  scene.send_map(map_of_room(), 0);
+  scene.begin(map_of_room(), kStart_us);
   scene.bus.publish(bus::kOdometry, bus::to_message(StampedPose2{kStart_us, {10.0, 5.0, 1.0}}));
   scene.send_cloud(kStart_us);
   scene.run(kStart_us);
@@ -160,11 +168,10 @@ TEST(LocaliserService, PublishesPosesBetweenCloudsFromOdometry) {
 
 TEST(LocaliserService, ForgetsWhereItWasWhenTheMapIsAnother) {
   Scene scene;
-  scene.send_map(map_of_room(), 0, 7);
+  scene.begin(map_of_room(), kStart_us, 7);
   scene.send_cloud(kStart_us);
   scene.run(kStart_us);
-  scene.send_map(map_of_room(), kStart_us, 8);
-  scene.run(kStart_us + 500'000);
+  scene.begin(map_of_room(), kStart_us + 1'000'000, 8);
   scene.send_cloud(kStart_us + 1'000'000);
   scene.run(kStart_us + 1'000'000);
   ASSERT_EQ(scene.localisations.size(), 2u);
@@ -172,9 +179,114 @@ TEST(LocaliserService, ForgetsWhereItWasWhenTheMapIsAnother) {
   EXPECT_TRUE(scene.localisations[1].searched_whole_map);
 }
 
+// The mapper's word on the first cloud is lost, and the robot drives on.
+TEST(LocaliserService, OneCloudAloneIsTheOriginOfAMap) {
+  Scene scene;
+  scene.begin({}, kStart_us);
+  for (int i = 0; i < 10; ++i) {
+    const std::int64_t now_us = kStart_us + i * 1'000'000;
+    scene.send_cloud(now_us, 0.1F * static_cast<float>(i));
+    scene.run(now_us);
+    scene.run(now_us + 600'000);
+    ASSERT_EQ(scene.localisations.size(), static_cast<std::size_t>(i + 1));
+    const localisation_t& found = scene.localisations.back();
+    ASSERT_EQ(found.state, localisation_t::STATE_TRACKING) << i;
+    EXPECT_NEAR(found.modes[0].pose[0], 0.1 * i, 0.05);
+    EXPECT_EQ(found.map_version, 0);
+  }
+}
+
+TEST(LocaliserService, GoesOnInTheMappersMapWhenItsFirstWordWasLost) {
+  Scene scene;
+  scene.begin({}, kStart_us);
+  scene.send_cloud(kStart_us);
+  scene.run(kStart_us);
+  OccupancyMap map;
+  add_scan(room(0), Pose3::Identity(), 100.0, map);
+  bus::MapChange& held = scene.mapper->map();
+  held.version = 1;
+  held.utime_us = kStart_us;
+  held.blocks = bus::to_messages(map);
+  for (int i = 1; i < 4; ++i) {
+    const std::int64_t now_us = kStart_us + i * 1'000'000;
+    scene.send_cloud(now_us, 0.1F * static_cast<float>(i));
+    scene.run(now_us);
+    scene.run(now_us + 600'000);
+    scene.run(now_us + 700'000);
+  }
+  const localisation_t& found = scene.localisations.back();
+  EXPECT_EQ(found.map_version, 1);
+  EXPECT_EQ(found.state, localisation_t::STATE_TRACKING);
+  EXPECT_NEAR(found.modes[0].pose[0], 0.3, 0.03);
+}
+
+TEST(LocaliserService, AFirstCloudThatOthersDoNotFitIsGivenUp) {
+  Scene scene;
+  scene.begin({}, kStart_us);
+  Cloud lid;
+  lid.utime_us = kStart_us;
+  for (int i = 0; i < 300; ++i) lid.points.emplace_back(0.2F, 0.001F * static_cast<float>(i), 0.5F);
+  scene.bus.publish(bus::kCloud, bus::to_message(lid, "base", 0));
+  scene.run(kStart_us);
+  for (int i = 1; i < 20; ++i) {
+    scene.send_cloud(kStart_us + i * 1'000'000);
+    scene.run(kStart_us + i * 1'000'000);
+    scene.run(kStart_us + i * 1'000'000 + 600'000);
+  }
+  EXPECT_EQ(scene.localisations[1].state, localisation_t::STATE_LOST);
+  EXPECT_EQ(scene.localisations.back().state, localisation_t::STATE_TRACKING);
+}
+
+TEST(LocaliserService, ACloudThatTellsNothingIsNoOrigin) {
+  Scene scene;
+  scene.begin({}, kStart_us);
+  Cloud far;
+  far.utime_us = kStart_us;
+  for (int i = 0; i < 300; ++i) far.points.emplace_back(200.F, 0.1F * static_cast<float>(i), 0.5F);
+  scene.bus.publish(bus::kCloud, bus::to_message(far, "base", 0));
+  scene.run(kStart_us);
+  EXPECT_EQ(scene.localisations.at(0).state, localisation_t::STATE_LOST);
+  scene.send_cloud(kStart_us + 1'000'000);
+  scene.run(kStart_us + 1'000'000);
+  EXPECT_EQ(scene.localisations.at(1).state, localisation_t::STATE_TRACKING);
+}
+
+TEST(LocaliserService, ClaimsNoPoseInAForgedMap) {
+  Scene scene;
+  scene.begin(map_of_room(), kStart_us);
+  for (const std::int64_t map_id : {7, 8}) {
+    for (const std::int64_t version : {0, 1, 2, 99}) {
+      bus::MapChange forged;
+      forged.utime_us = kStart_us + 1;
+      forged.map_id = map_id;
+      forged.version = version;
+      forged.resolution = bus::resolution_of({});
+      scene.publish(bus::split_map(forged));
+    }
+  }
+  scene.send_cloud(kStart_us, 0.5F);
+  scene.run(kStart_us);
+  ASSERT_EQ(scene.localisations.size(), 1u);
+  ASSERT_EQ(scene.localisations[0].state, localisation_t::STATE_TRACKING);
+  EXPECT_EQ(scene.localisations[0].map_version, 1);
+  EXPECT_NEAR(scene.localisations[0].modes[0].pose[0], 0.5, 0.03);
+}
+
+TEST(LocaliserService, AnEmptyMapThatTheMapperDoesNotCallEmptyHasNoOrigin) {
+  Scene scene;
+  scene.begin({}, kStart_us - 2'000'000);
+  scene.mapper->map().version = 3;
+  scene.publish(scene.mapper->word());
+  for (int i = -10; i < 0; ++i) scene.run(kStart_us + i * 100'000);
+  scene.send_cloud(kStart_us);
+  scene.run(kStart_us);
+  ASSERT_EQ(scene.localisations.size(), 1u);
+  EXPECT_EQ(scene.localisations[0].state, localisation_t::STATE_LOST);
+}
+
 TEST(LocaliserService, AForgedTimeDoesNotShutOutTheCloudsAfterIt) {
   Scene scene;
-  scene.send_map(map_of_room(), 0);
+  scene.begin(map_of_room(), kStart_us);
   scene.send_cloud(kStart_us);
   scene.run(kStart_us);
   scene.send_cloud(kStart_us + 30'000'000);
@@ -190,7 +302,7 @@ TEST(LocaliserService, AForgedTimeDoesNotShutOutTheCloudsAfterIt) {
 
 TEST(LocaliserService, TellsThatOdometryIsOfAnotherTime) {
   Scene scene;
-  scene.send_map(map_of_room(), 0);
+  scene.begin(map_of_room(), kStart_us);
   const std::int64_t old_us = kStart_us - 12'000'000;
   scene.bus.publish(bus::kOdometry, bus::to_message(StampedPose2{old_us, {}}));
   scene.send_cloud(kStart_us);

@@ -1,10 +1,8 @@
-#include "voxlist/bus/map_chunks.h"
+#include "voxlist/bus/maps/map_chunks.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <limits>
-#include <map>
 #include <random>
 #include <stdexcept>
 
@@ -90,14 +88,11 @@ TEST(SplitMap, FillsEveryMessageButTheLastFromBothLists) {
             kBlocksPerChunk / 3);
 }
 
-TEST(MapAssembler, AsksUntilItHoldsAMap) {
+TEST(MapAssembler, HoldsNothingBeforeAWholeMap) {
   MapAssembler assembler;
-  EXPECT_TRUE(assembler.needs_request());
   add_all(assembler, split_map(change(5, 4, 10)));
-  EXPECT_TRUE(assembler.needs_request());
   EXPECT_FALSE(assembler.held());
   EXPECT_EQ(versions(add_all(assembler, split_map(change(6, kWholeMap, 10)))), Versions{6});
-  EXPECT_FALSE(assembler.needs_request());
   ASSERT_TRUE(assembler.held());
   EXPECT_EQ(assembler.held()->version, 6);
 }
@@ -128,7 +123,6 @@ TEST(MapAssembler, FollowsIncrements) {
   add_all(assembler, split_map(change(1, kWholeMap, 10)));
   for (std::int64_t v = 2; v < 10; ++v) {
     EXPECT_EQ(versions(add_all(assembler, split_map(change(v, v - 1, 5)))), Versions{v});
-    EXPECT_FALSE(assembler.needs_request());
   }
 }
 
@@ -136,9 +130,7 @@ TEST(MapAssembler, HoldsBackAnIncrementUntilTheOneBeforeItCame) {
   MapAssembler assembler;
   add_all(assembler, split_map(change(1, kWholeMap, 10)));
   EXPECT_TRUE(add_all(assembler, split_map(change(3, 2, 5))).empty());
-  EXPECT_TRUE(assembler.needs_request());
   EXPECT_EQ(versions(add_all(assembler, split_map(change(2, 1, 5)))), (Versions{2, 3}));
-  EXPECT_FALSE(assembler.needs_request());
 }
 
 TEST(MapAssembler, AppliesIncrementsThatArriveWhileAWholeMapIsComingIn) {
@@ -148,29 +140,25 @@ TEST(MapAssembler, AppliesIncrementsThatArriveWhileAWholeMapIsComingIn) {
   add_all(assembler, split_map(change(6, 5, 5)));
   assembler.add(whole[1]);
   EXPECT_EQ(versions(assembler.add(whole[2])), (Versions{5, 6}));
-  EXPECT_FALSE(assembler.needs_request());
 }
 
-TEST(MapAssembler, SeesThatAVersionWasLost) {
+TEST(MapAssembler, WaitsForAWholeMapWhenAVersionWasLost) {
   MapAssembler assembler;
   add_all(assembler, split_map(change(1, kWholeMap, 10)));
   EXPECT_TRUE(add_all(assembler, split_map(change(4, 3, 5))).empty());
-  EXPECT_TRUE(assembler.needs_request());
   EXPECT_EQ(versions(add_all(assembler, split_map(change(5, kWholeMap, 10)))), Versions{5});
-  EXPECT_FALSE(assembler.needs_request());
 }
 
-TEST(MapAssembler, SeesALostChunkOnceALaterMessageComes) {
+TEST(MapAssembler, PutsAWholeMapTogetherOfTwoSendings) {
   MapAssembler assembler;
-  add_all(assembler, split_map(change(1, kWholeMap, 10)));
-  auto messages = split_map(change(2, 1, 3 * kBlocksPerChunk));
+  auto messages = split_map(change(2, kWholeMap, 3 * kBlocksPerChunk));
+  const map_update_t second = messages[1];
   messages.erase(messages.begin() + 1);
   EXPECT_TRUE(add_all(assembler, messages).empty());
-  EXPECT_FALSE(assembler.needs_request()) << "it may still come";
-  MapChange nothing_new = change(2, 2, 0);
-  nothing_new.utime_us += 500;
-  add_all(assembler, split_map(nothing_new));
-  EXPECT_TRUE(assembler.needs_request());
+  auto again = second;
+  again.utime += 500;
+  EXPECT_EQ(versions(assembler.add(again)), Versions{2});
+  EXPECT_EQ(assembler.held()->utime_us, 2500);
 }
 
 TEST(MapAssembler, PassesOnThatNothingChanged) {
@@ -182,7 +170,6 @@ TEST(MapAssembler, PassesOnThatNothingChanged) {
   ASSERT_EQ(changes.size(), 1U);
   EXPECT_EQ(changes[0].utime_us, 2500);
   EXPECT_EQ(changes[0].blocks.size(), 0U);
-  EXPECT_FALSE(assembler.needs_request());
 }
 
 TEST(MapAssembler, IgnoresWhatIsOlderThanWhatItHolds) {
@@ -191,9 +178,8 @@ TEST(MapAssembler, IgnoresWhatIsOlderThanWhatItHolds) {
   EXPECT_TRUE(add_all(assembler, split_map(change(4, kWholeMap, 10))).empty());
   EXPECT_TRUE(add_all(assembler, split_map(change(5, kWholeMap, 10))).empty());
   EXPECT_TRUE(add_all(assembler, split_map(change(5, 4, 10))).empty());
-  EXPECT_EQ(assembler.counters().at("stale"), 3);
+  EXPECT_EQ(assembler.counters().at("older"), 3);
   EXPECT_EQ(assembler.held()->version, 5);
-  EXPECT_FALSE(assembler.needs_request());
 }
 
 TEST(MapAssembler, FollowsAMapperThatStartsANewMap) {
@@ -204,55 +190,36 @@ TEST(MapAssembler, FollowsAMapperThatStartsANewMap) {
   EXPECT_EQ(versions(add_all(assembler, split_map(change(1, 0, 5, 2)))), Versions{1});
 }
 
-TEST(MapAssembler, AsksWhenItMissedTheStartOfANewMap) {
-  MapAssembler assembler;
-  add_all(assembler, split_map(change(50, kWholeMap, 10, 1)));
-  EXPECT_TRUE(add_all(assembler, split_map(change(51, 50, 5, 2))).empty());
-  EXPECT_TRUE(assembler.needs_request());
-}
-
-TEST(MapAssembler, FollowsAMapperThatCameBackWithAnOlderVersion) {
+TEST(MapAssembler, TakesAnOlderVersionOnceItHasForgotten) {
   MapAssembler assembler;
   add_all(assembler, split_map(change(50, kWholeMap, 10)));
-  MapChange restored = change(48, 48, 0);
-  restored.utime_us = 60'000;
+  MapChange restored = change(48, kWholeMap, 10);
+  restored.utime_us = 90'000;
   EXPECT_TRUE(add_all(assembler, split_map(restored)).empty());
-  EXPECT_TRUE(assembler.needs_request());
-  restored.base_version = kWholeMap;
-  restored.utime_us = 61'000;
+  assembler.forget();
+  EXPECT_FALSE(assembler.held());
   EXPECT_EQ(versions(add_all(assembler, split_map(restored))), Versions{48});
-  EXPECT_FALSE(assembler.needs_request());
 }
 
-TEST(MapAssembler, RefusesChunksThatMakeNoSense) {
+TEST(MapAssembler, AForgedTimeShutsNothingOut) {
   MapAssembler assembler;
-  const map_update_t good = split_map(change(3, kWholeMap, 2 * kBlocksPerChunk))[0];
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  std::vector<map_update_t> bad(21, good);
-  bad[0].chunk = 2;
-  bad[1].chunk = -1;
-  bad[2].n_chunks = 0;
-  bad[3].n_chunks = kMaxChunks + 1;
-  bad[4].resolution_m = std::numeric_limits<double>::quiet_NaN();
-  bad[5].resolution_m = 0.0;
-  bad[6].blocks[7].y = kMaxBlockCoordinate;
-  bad[7].blocks[7].z = std::numeric_limits<std::int32_t>::min();
-  bad[8].version = -1;
-  bad[9].base_version = 4;
-  bad[10].base_version = -2;
-  bad[11].utime = -5;
-  bad[12].blocks.push_back(good.blocks[0]);
-  bad[13].base_version = 3;
-  bad[14].passed_resolution_m = std::numeric_limits<double>::quiet_NaN();
-  bad[15].passed_resolution_m = kInfinity;
-  bad[16].passed_resolution_m = -0.2;
-  bad[17].passed_resolution_m = 0.9 * kResolution.occupied_m;
-  bad[18].passed_resolution_m = 11.0;
-  bad[19].passed_blocks.push_back(good.blocks[0]);
-  bad[20].blocks.pop_back();
-  bad[20].passed_blocks.push_back(block(kMaxBlockCoordinate, 1));
-  for (const auto& message : bad) EXPECT_TRUE(assembler.add(message).empty());
-  EXPECT_EQ(assembler.counters().at("bad_chunk"), 21);
+  add_all(assembler, split_map(change(1, kWholeMap, 10)));
+  MapChange forged = change(1, 1, 0);
+  forged.utime_us = 9'000'000;
+  add_all(assembler, split_map(forged));
+  EXPECT_EQ(versions(add_all(assembler, split_map(change(2, 1, 5)))), Versions{2});
+  EXPECT_EQ(assembler.held()->utime_us, 2000);
+}
+
+TEST(MapAssembler, RefusesAnIncrementFarFromItsMap) {
+  MapAssembler assembler;
+  add_all(assembler, split_map(change(1, kWholeMap, 10)));
+  MapChange far = change(2, 1, 10);
+  far.blocks.occupied[0].y = 5100;  // 2040 m
+  EXPECT_TRUE(add_all(assembler, split_map(far)).empty());
+  EXPECT_EQ(assembler.counters().at("far_block"), 1);
+  far.blocks.occupied[0].y = 4900;
+  EXPECT_EQ(versions(add_all(assembler, split_map(far))), Versions{2});
 }
 
 TEST(MapAssembler, RefusesPassedCellsWhereNothingChanged) {
@@ -285,7 +252,6 @@ TEST(MapAssembler, NeverBuildsOnAMapOfAnotherResolution) {
     MapChange finer = change(2, 1, 5);
     finer.resolution = other;
     EXPECT_TRUE(add_all(assembler, split_map(finer)).empty());
-    EXPECT_TRUE(assembler.needs_request());
   }
 }
 
@@ -293,43 +259,6 @@ TEST(MapAssembler, KeepsABoundedNumberOfUnfinishedChanges) {
   MapAssembler assembler;
   for (std::int64_t v = 1; v <= 1000; ++v) assembler.add(split_map(change(v, v - 1, 1000))[0]);
   EXPECT_EQ(assembler.counters().at("abandoned"), 1000 - 64);
-}
-
-// A listener with a bad line, which asks when it should, always ends with the mapper's map.
-TEST(MapAssembler, EndsWithTheMappersMapWhateverTheLineLoses) {
-  for (std::uint32_t seed = 0; seed < 10; ++seed) {
-    std::mt19937 random(seed);
-    MapAssembler assembler;
-    std::map<std::int32_t, std::int64_t> truth, passed_truth;
-    std::map<std::int32_t, std::int64_t> held, passed;
-    std::vector<map_update_t> line;
-    for (std::int64_t v = 1; v <= 100; ++v) {
-      const bool lossy = v < 90;
-      const MapChange increment = change(v, v - 1, 2000);
-      for (const auto& b : increment.blocks.occupied) truth[b.x] = v;
-      for (const auto& b : increment.blocks.passed) passed_truth[b.x] = -v;
-      for (auto& m : split_map(increment)) line.push_back(std::move(m));
-      if (assembler.needs_request()) {
-        MapChange whole{1000 * v + 1, 1, v, kWholeMap, kResolution, {}};
-        for (const auto& [x, bits] : truth) whole.blocks.occupied.push_back(block(x, bits));
-        for (const auto& [x, bits] : passed_truth) whole.blocks.passed.push_back(block(x, bits));
-        for (auto& m : split_map(whole)) line.push_back(std::move(m));
-      }
-      if (lossy && random() % 3 == 0) std::ranges::shuffle(line, random);
-      for (const auto& message : line) {
-        if (lossy && random() % 10 == 0) continue;
-        for (const MapChange& c : assembler.add(message)) {
-          if (c.is_whole()) held.clear(), passed.clear();
-          for (const auto& b : c.blocks.occupied) held[b.x] = b.bits[0];
-          for (const auto& b : c.blocks.passed) passed[b.x] = b.bits[0];
-        }
-      }
-      line.clear();
-    }
-    EXPECT_EQ(held, truth) << "seed " << seed;
-    EXPECT_EQ(passed, passed_truth) << "seed " << seed;
-    EXPECT_EQ(assembler.held()->version, 100) << "seed " << seed;
-  }
 }
 
 }  // namespace

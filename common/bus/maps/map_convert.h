@@ -1,6 +1,6 @@
 #pragma once
 
-#include "voxlist/bus/map_chunks.h"
+#include "voxlist/bus/maps/map_chunks.h"
 #include "voxlist/voxels/occupancy_map.h"
 
 namespace voxlist::bus {

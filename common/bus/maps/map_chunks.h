@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <list>
 #include <optional>
@@ -60,17 +61,16 @@ struct MapChange {
 std::vector<map_update_t> split_map(MapChange change);
 
 /// Puts chunks together again, whatever their order, with duplicates and losses, in bounded memory.
-/// What it hands out always builds on what it handed out before.
+/// What it hands out always builds on what it handed out before. It believes whoever sends:
+/// service::MapFollower lets through what is the mapper's.
 class MapAssembler {
  public:
   /// Takes a chunk. Returns the changes that are now complete and fit, to be applied in this order:
-  /// mostly none or one.
+  /// mostly none or one. A whole map in two sendings may be put together of both.
   std::vector<MapChange> add(const map_update_t& message);
 
-  /// Whether only a whole map can help: none held yet, a version was missed, or a chunk of the
-  /// newest one never came and a later message shows it. Ask (MAP_REQUEST, WANT_MAP) at most once a
-  /// second while true: an answer takes time.
-  bool needs_request() const;
+  /// Holds nothing from now on, and waits for a whole map.
+  void forget();
 
   /// What the last change handed out led to; nothing before the first.
   struct Held {
@@ -81,8 +81,9 @@ class MapAssembler {
   };
   const std::optional<Held>& held() const { return held_; }
 
-  /// "bad_chunk" (makes no sense), "stale" (older than what is held, or a repetition of it),
-  /// "duplicate", "abandoned" (changes given up before they were complete or fitted).
+  /// By fault (map_faults.h), and "bad_chunk" (contradicts other chunks), "older" (than what is
+  /// held, or a repetition of it), "duplicate", "abandoned" (changes given up before they were
+  /// complete or fitted).
   const Counters& counters() const { return counters_; }
 
  private:
@@ -93,19 +94,20 @@ class MapAssembler {
     std::int32_t missing;
   };
 
-  bool is_stale(const MapChange& change) const;
+  bool is_older(const MapChange& change) const;
+  bool is_far_from_held(const map_update_t& message) const;
   bool builds_on_held(const MapChange& change) const;
   Assembly* assembly_of(const map_update_t& message);
   void put(const map_update_t& message, Assembly& assembly);
   std::vector<MapChange> take_ready();
   MapChange take(std::list<Assembly>::iterator ready);
+  void hold(const MapChange& change);
   void abandon(std::list<Assembly>::iterator assembly);
   void abandon_useless();
   void bound_memory();
 
   std::optional<Held> held_;
-  // Header of the newest message, without blocks.
-  std::optional<MapChange> newest_;
+  Eigen::AlignedBox3d box_;  // of the held map's blocks, and its origin (m)
   // Oldest first.
   std::list<Assembly> assemblies_;
   std::size_t pending_blocks_ = 0;

@@ -1,8 +1,7 @@
 #include <algorithm>
-#include <cmath>
 
-#include "voxlist/bus/convert.h"
-#include "voxlist/bus/map_chunks.h"
+#include "voxlist/bus/maps/map_chunks.h"
+#include "voxlist/bus/maps/map_faults.h"
 
 namespace voxlist::bus {
 namespace {
@@ -14,99 +13,75 @@ constexpr std::size_t kMaxAssemblies = 64;
 // Blocks that all of them may hold together: as many as one whole map.
 constexpr std::size_t kMaxPendingBlocks = std::size_t{kMaxChunks} * kBlocksPerChunk;
 
-// A message that is older than the map by up to this (us) came late on its way; an even older one
-// belongs to a recording that started anew.
-constexpr std::int64_t kLateness_us = 10'000'000;
-
-// Voxel edges (m) that a map may have: a millimetre is finer than any laser, ten metres no map.
-constexpr double kMinResolution_m = 1e-3;
-constexpr double kMaxResolution_m = 10.0;
+// Farthest (m) that an increment lies from the map that it adds to: a cloud reaches 1 km, and
+// begins in the map.
+constexpr double kMaxGap_m = 2'000.0;
 
 MapResolution resolution_of(const map_update_t& m) {
   return {m.resolution_m, m.passed_resolution_m};
 }
 
-bool is_sane_coordinate(std::int32_t c) { return std::abs(std::int64_t{c}) < kMaxBlockCoordinate; }
-
-bool is_sane_block(const voxel_block_t& block) {
-  return is_sane_coordinate(block.x) && is_sane_coordinate(block.y) && is_sane_coordinate(block.z);
-}
-
-// Written so that NaN fails.
-bool is_sane(const MapResolution& resolution) {
-  return resolution.occupied_m >= kMinResolution_m && resolution.passed_m <= kMaxResolution_m &&
-         resolution.occupied_m <= resolution.passed_m;
-}
-
-bool is_sane(const map_update_t& m) {
-  const bool versions =
-      m.version >= 0 && m.base_version >= kWholeMap && m.base_version <= m.version;
-  const bool chunks =
-      m.n_chunks >= 1 && m.n_chunks <= kMaxChunks && m.chunk >= 0 && m.chunk < m.n_chunks;
-  const bool nothing_changed = m.base_version == m.version;
-  const std::ptrdiff_t n_blocks = std::ssize(m.blocks) + std::ssize(m.passed_blocks);
-  return is_sane_utime(m.utime) && versions && chunks && is_sane(resolution_of(m)) &&
-         n_blocks <= (nothing_changed ? 0 : kBlocksPerChunk) &&
-         std::ranges::all_of(m.blocks, is_sane_block) &&
-         std::ranges::all_of(m.passed_blocks, is_sane_block);
+// Calls visit(corner of the block in metres).
+template <class Visit>
+void for_each_corner(const std::vector<voxel_block_t>& blocks, double resolution_m, Visit visit) {
+  for (const voxel_block_t& b : blocks)
+    visit(Eigen::Vector3d(8.0 * resolution_m * Eigen::Vector3d(b.x, b.y, b.z)));
 }
 
 MapChange header_of(const map_update_t& m) {
   return {m.utime, m.map_id, m.version, m.base_version, resolution_of(m), {}};
 }
 
-bool same_header(const MapChange& a, const MapChange& b) {
-  return a.utime_us == b.utime_us && a.map_id == b.map_id && a.version == b.version &&
-         a.base_version == b.base_version;
+bool leads_to_the_same(const MapChange& a, const MapChange& b) {
+  return a.map_id == b.map_id && a.version == b.version && a.base_version == b.base_version;
 }
 
 void append(const std::vector<voxel_block_t>& more, std::vector<voxel_block_t>& blocks) {
   blocks.insert(blocks.end(), more.begin(), more.end());
 }
 
-bool came_late(std::int64_t utime_us, std::int64_t newest_us) {
-  return utime_us < newest_us && newest_us - utime_us <= kLateness_us;
-}
-
 }  // namespace
 
 std::vector<MapChange> MapAssembler::add(const map_update_t& message) {
-  const MapChange header = header_of(message);
-  if (!is_sane(message)) {
-    ++counters_["bad_chunk"];
-    return {};
-  }
-  if (is_stale(header)) {
-    ++counters_["stale"];
-    return {};
-  }
-  const bool late =
-      newest_ && newest_->map_id == header.map_id && came_late(header.utime_us, newest_->utime_us);
-  if (!late) newest_ = header;
+  const auto refuse = [this](const char* why) {
+    ++counters_[why];
+    return std::vector<MapChange>{};
+  };
+  if (const MapFault fault = fault_of(message); fault != MapFault::kNone)
+    return refuse(name(fault));
+  if (is_older(header_of(message))) return refuse("older");
+  if (is_far_from_held(message)) return refuse(name(MapFault::kFarBlock));
   Assembly* assembly = assembly_of(message);
-  if (assembly == nullptr) {
-    ++counters_["bad_chunk"];
-    return {};
-  }
+  if (assembly == nullptr) return refuse(name(MapFault::kChunk));
   put(message, *assembly);
   std::vector<MapChange> ready = take_ready();
   bound_memory();
   return ready;
 }
 
-bool MapAssembler::needs_request() const {
-  if (!held_) return true;
-  if (newest_->map_id == held_->map_id && newest_->version == held_->version) return false;
-  const bool coming = std::ranges::any_of(assemblies_, [&](const Assembly& assembly) {
-    return same_header(assembly.change, *newest_) && builds_on_held(assembly.change);
-  });
-  return !coming;
+void MapAssembler::forget() {
+  held_.reset();
+  assemblies_.clear();
+  pending_blocks_ = 0;
 }
 
-bool MapAssembler::is_stale(const MapChange& change) const {
+// Versions decide, not times: the mapper's time is that of the last cloud, and clouds come from
+// whoever publishes them.
+bool MapAssembler::is_older(const MapChange& change) const {
   if (!held_ || held_->map_id != change.map_id) return false;
-  if (came_late(change.utime_us, held_->utime_us)) return true;
-  return change.utime_us == held_->utime_us && change.version <= held_->version;
+  const bool nothing_changed = change.base_version == change.version;
+  return change.version < held_->version || (change.version == held_->version && !nothing_changed);
+}
+
+bool MapAssembler::is_far_from_held(const map_update_t& message) const {
+  if (!held_ || message.base_version == kWholeMap) return false;
+  bool far = false;
+  const auto look = [&](const Eigen::Vector3d& corner) {
+    far |= box_.exteriorDistance(corner) > kMaxGap_m;
+  };
+  for_each_corner(message.blocks, message.resolution_m, look);
+  for_each_corner(message.passed_blocks, message.passed_resolution_m, look);
+  return far;
 }
 
 bool MapAssembler::builds_on_held(const MapChange& change) const {
@@ -120,7 +95,7 @@ bool MapAssembler::builds_on_held(const MapChange& change) const {
 MapAssembler::Assembly* MapAssembler::assembly_of(const map_update_t& message) {
   const MapChange header = header_of(message);
   const auto found = std::ranges::find_if(
-      assemblies_, [&](const Assembly& assembly) { return same_header(assembly.change, header); });
+      assemblies_, [&](const Assembly& a) { return leads_to_the_same(a.change, header); });
   if (found == assemblies_.end()) {
     Assembly& fresh = assemblies_.emplace_back();
     fresh.change = header;
@@ -130,7 +105,9 @@ MapAssembler::Assembly* MapAssembler::assembly_of(const map_update_t& message) {
   }
   const bool agrees = std::ssize(found->chunks) == message.n_chunks &&
                       found->change.resolution == header.resolution;
-  return agrees ? &*found : nullptr;
+  if (!agrees) return nullptr;
+  found->change.utime_us = header.utime_us;
+  return &*found;
 }
 
 void MapAssembler::put(const map_update_t& message, Assembly& assembly) {
@@ -165,8 +142,16 @@ MapChange MapAssembler::take(std::list<Assembly>::iterator ready) {
   }
   pending_blocks_ -= change.blocks.size();
   assemblies_.erase(ready);
-  held_ = Held{change.utime_us, change.map_id, change.version, change.resolution};
+  hold(change);
   return change;
+}
+
+void MapAssembler::hold(const MapChange& change) {
+  held_ = Held{change.utime_us, change.map_id, change.version, change.resolution};
+  if (change.is_whole()) box_ = Eigen::AlignedBox3d(Eigen::Vector3d::Zero().eval());
+  const auto extend = [this](const Eigen::Vector3d& corner) { box_.extend(corner); };
+  for_each_corner(change.blocks.occupied, change.resolution.occupied_m, extend);
+  for_each_corner(change.blocks.passed, change.resolution.passed_m, extend);
 }
 
 void MapAssembler::abandon(std::list<Assembly>::iterator assembly) {
@@ -178,7 +163,7 @@ void MapAssembler::abandon(std::list<Assembly>::iterator assembly) {
 }
 
 void MapAssembler::abandon_useless() {
-  const auto is_useless = [&](const Assembly& assembly) { return is_stale(assembly.change); };
+  const auto is_useless = [&](const Assembly& assembly) { return is_older(assembly.change); };
   for (auto useless = std::ranges::find_if(assemblies_, is_useless); useless != assemblies_.end();
        useless = std::ranges::find_if(assemblies_, is_useless)) {
     abandon(useless);

@@ -1,4 +1,4 @@
-#include "voxlist/bus/map_convert.h"
+#include "voxlist/bus/maps/map_convert.h"
 
 #include <gtest/gtest.h>
 

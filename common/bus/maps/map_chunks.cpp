@@ -1,4 +1,4 @@
-#include "voxlist/bus/map_chunks.h"
+#include "voxlist/bus/maps/map_chunks.h"
 
 #include <algorithm>
 #include <stdexcept>
