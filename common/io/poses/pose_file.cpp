@@ -8,6 +8,7 @@
 
 #include "voxlist/geometry/angle.h"
 #include "voxlist/geometry/time_limit.h"
+#include "voxlist/io/files/time_in_name.h"
 #include "voxlist/io/poses/csv_table.h"
 #include "voxlist/io/poses/number_rows.h"
 
@@ -34,13 +35,17 @@ std::optional<Quantity> angle(const CsvTable& csv, std::string_view name) {
 
 // EuRoC calls x p_RS_R_x [m].
 std::optional<Quantity> length(const CsvTable& csv, std::string_view name) {
-  const std::string base(name), in_euroc = "p_rs_r_" + base;
-  return quantity(csv, {base, base + "_m", in_euroc, in_euroc + "_m"});
+  const std::string base(name);
+  for (const std::string before : {"", "p_rs_r_", "p_", "t", "t_", "pos_", "position_"})
+    if (const auto found = quantity(csv, {before + base, before + base + "_m"})) return found;
+  return std::nullopt;
 }
 
 // EuRoC calls qx q_RS_x [].
 std::optional<Quantity> quaternion_part(const CsvTable& csv, char name) {
-  return quantity(csv, {std::string("q") + name, std::string("q_rs_") + name});
+  const std::string base(1, name);
+  return quantity(csv,
+                  {"q" + base, "q_rs_" + base, "q_" + base, "quat_" + base, "orientation_" + base});
 }
 
 std::optional<Quantity> time(const CsvTable& csv) {
@@ -225,6 +230,7 @@ std::optional<Eigen::Quaterniond> unit_quaternion(double w, double x, double y, 
 }
 
 std::optional<std::int64_t> number_in_name(const std::filesystem::path& file) {
+  if (time_in_name(file)) return std::nullopt;
   constexpr std::size_t kMaxDigits = 9;
   const std::string stem = file.stem().string();
   const std::size_t last = stem.find_last_of("0123456789");

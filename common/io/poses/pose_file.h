@@ -57,9 +57,9 @@ PoseTable read_poses(const std::filesystem::path& path);
 /// | time in microseconds | utime, utime_us, timestamp_us, time_us, t_us |
 /// | time in nanoseconds | utime_ns, timestamp_ns, time_ns, t_ns; timestamp of EuRoC |
 /// | time in seconds, if there is no other | t, t_s, time, time_s, timestamp, timestamp_s |
-/// | position (m) | x, y, and z or not; p_rs_r_x, ... |
+/// | position (m) | x, y, and z or not; tx, p_x, pos_x, position_x, p_rs_r_x, ... |
 /// | heading (rad; degrees with the suffix _deg) | yaw, and roll and pitch or not (R = Rz Ry Rx),
-/// or qx, qy, qz, qw, or q_rs_x, ... |
+/// or qx, qy, qz, qw, or q_x, quat_x, orientation_x, q_rs_x, ... |
 ///
 /// A row whose position is nan or inf altogether is counted as unknown and left out. Throws
 /// FileError (with line and column) on: missing columns, more cells than columns, no rows, what is
@@ -74,7 +74,7 @@ PoseTable read_odometry_csv(const std::filesystem::path& path);
 std::optional<Eigen::Quaterniond> unit_quaternion(double w, double x, double y, double z);
 
 /// The last run of digits in a file's name (without folder and extension); nothing when there is
-/// none or it is longer than 9 digits (a time, not a number of a scan).
+/// none, it is longer than 9 digits, or the name tells a time (time_in_name).
 std::optional<std::int64_t> number_in_name(const std::filesystem::path& file);
 
 }  // namespace voxlist::io

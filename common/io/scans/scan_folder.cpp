@@ -3,12 +3,15 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <map>
 #include <string>
+#include <utility>
 
 #include "voxlist/io/clouds/cloud_file.h"
 #include "voxlist/io/files/cursor.h"
 #include "voxlist/io/files/natural_order.h"
+#include "voxlist/io/files/time_in_name.h"
 
 namespace voxlist::io {
 namespace {
@@ -19,6 +22,9 @@ using Files = std::vector<fs::path>;
 // Scans that come closer together than this (us) have times in another unit: no 3D scanner makes a
 // thousand a second.
 constexpr std::int64_t kLeastPeriod_us = 1'000;
+
+// How far a row's time may be from its scan's (us): what rounding to hundredths of a second costs.
+constexpr std::int64_t kSameTime_us = 10'000;
 
 // Time between scans of which no table says when they were taken (us).
 constexpr std::int64_t kDefaultPeriod_us = 1'000'000;
@@ -83,8 +89,15 @@ std::int64_t time_of(std::int64_t scan, const std::map<std::int64_t, std::int64_
 
 ScanFolder::ScanFolder(const fs::path& folder) : files_(find_scans(folder)) {
   rows_.rows.resize(files_.size());
+  take_times_in_names();
   if (fs::exists(folder / "poses.csv")) {
     take_poses(folder / "poses.csv");
+  }
+  if (utimes_us_.empty() && !in_names_.empty()) {
+    utimes_us_ = in_names_;
+    check_times(folder);
+  } else {
+    time_note_.clear();
   }
   for (auto scan = static_cast<std::int64_t>(utimes_us_.size()); utimes_us_.size() < files_.size();
        ++scan) {
@@ -95,15 +108,43 @@ ScanFolder::ScanFolder(const fs::path& folder) : files_(find_scans(folder)) {
   }
 }
 
+// Names are sorted as times then: 1.5 comes after 1.25.
+void ScanFolder::take_times_in_names() {
+  std::vector<std::pair<TimeInName, fs::path>> timed;
+  for (const fs::path& file : files_) {
+    const auto time = time_in_name(file);
+    if (!time) return;
+    timed.emplace_back(*time, file);
+  }
+  std::ranges::stable_sort(timed, {}, [](const auto& scan) { return scan.first.utime_us; });
+  std::ranges::transform(timed, files_.begin(), [](const auto& scan) { return scan.second; });
+  for (const auto& [time, file] : timed) in_names_.push_back(time.utime_us);
+  time_note_ = fmt::format("the scans' times are those in their names, in {}",
+                           name(timed.front().first.unit));
+}
+
 void ScanFolder::take_poses(const fs::path& path) {
   poses_ = read_poses(path);
-  rows_ = match_rows(files_, {}, *poses_);
+  rows_ = match_rows(files_, in_names_, *poses_);
   if (rows_.empty()) {
     throw FileError(path, "matches none of the scans, check its index or file column");
   }
-  if (!poses_->has_times) {
-    return;
+  if (!poses_->has_times || names_agree()) return;
+  take_times_of_rows();
+  check_times(path);
+}
+
+// Whether the table gives the scans the times that their names tell.
+bool ScanFolder::names_agree() const {
+  if (in_names_.empty()) return false;
+  for (std::size_t scan = 0; scan < files_.size(); ++scan) {
+    const auto row = rows_.rows[scan];
+    if (row && std::abs(poses_->rows[*row].utime_us - in_names_[scan]) > kSameTime_us) return false;
   }
+  return true;
+}
+
+void ScanFolder::take_times_of_rows() {
   const std::vector<std::int64_t> numbers = scan_numbers(files_);
   std::map<std::int64_t, std::int64_t> known;
   for (std::size_t scan = 0; scan < files_.size(); ++scan) {
@@ -112,7 +153,6 @@ void ScanFolder::take_poses(const fs::path& path) {
   for (const std::int64_t number : numbers) {
     utimes_us_.push_back(time_of(number, known));
   }
-  check_times(path);
 }
 
 void ScanFolder::check_times(const fs::path& path) const {

@@ -17,10 +17,12 @@ namespace voxlist::io {
 /// regular file are no scans.
 ///
 /// A scan's number is its position, from 0, in the natural order of the names (scan_9 before
-/// scan_10). Times come from poses.csv, whose rows belong to scans as match_rows says; scans that
-/// it leaves out lie evenly between those that it has (by the numbers in the names, where there),
-/// or 1 s apart at the ends. Without poses.csv, or without times in it, scans come once a second
-/// from utime 0.
+/// scan_10), or of the times in their names, where all have one (time_in_name). Times come from
+/// poses.csv, whose rows belong to scans as match_rows says; scans that it leaves out lie evenly
+/// between those that it has (by the numbers in the names, where there), or 1 s apart at the ends;
+/// or they have the times in their names, where those are the table's, too. Without poses.csv, or
+/// without times in it, scans have the times in their names, else they come once a second from
+/// utime 0.
 class ScanFolder {
  public:
   /// Looks at names and tables; scans are read one by one later. Throws FileError when there is no
@@ -32,8 +34,8 @@ class ScanFolder {
   const std::filesystem::path& file(std::size_t scan) const { return files_[scan]; }
   std::int64_t utime_us(std::size_t scan) const { return utimes_us_[scan]; }
 
-  /// Whether poses.csv gives the times; else the scans come once a second.
-  bool has_times() const { return poses_ && poses_->has_times; }
+  /// Whether poses.csv or the names give the times; else the scans come once a second.
+  bool has_times() const { return !in_names_.empty() || (poses_ && poses_->has_times); }
 
   /// Reads a scan and sets its time. Throws FileError.
   Cloud read(std::size_t scan) const;
@@ -51,12 +53,20 @@ class ScanFolder {
   /// What a person should know of how poses.csv and the scans belong together.
   const std::vector<std::string>& notes() const { return rows_.notes; }
 
+  /// "the scans' times are those in their names, in nanoseconds"; empty where they are not.
+  const std::string& time_note() const { return time_note_; }
+
  private:
+  void take_times_in_names();
+  bool names_agree() const;
+  void take_times_of_rows();
   void take_poses(const std::filesystem::path& path);
   void check_times(const std::filesystem::path& path) const;
 
   std::vector<std::filesystem::path> files_;
+  std::vector<std::int64_t> in_names_;  // times, where all names have one
   std::vector<std::int64_t> utimes_us_;
+  std::string time_note_;
   std::optional<PoseTable> poses_;
   std::optional<PoseTable> odometry_;
   RowMatch rows_;

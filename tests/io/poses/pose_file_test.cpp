@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/io/scans/scan_files.h"
@@ -57,6 +58,18 @@ TEST(PoseFile, ReadsQuaternionsAndRollPitchYawAlike) {
   const auto quaternion = read("x,y,z,qx,qy,qz,qw\n0,0,0,0.5,0.5,0.5,0.5\n");
   const auto angles = read("x,y,yaw,roll,pitch\n0,0,1.5707963267948966,1.5707963267948966,0\n");
   EXPECT_TRUE(quaternion.rows[0].pose.isApprox(angles.rows[0].pose, 1e-12));
+}
+
+TEST(PoseFile, KnowsTheNamesOfOthers) {
+  for (const std::string header :
+       {"timestamp tx ty tz qx qy qz qw", "t,p_x [m],p_y [m],p_z [m],q_x,q_y,q_z,q_w",
+        "t,position_x,position_y,position_z,orientation_x,orientation_y,orientation_z,orientation_"
+        "w",
+        "t,pos_x,pos_y,pos_z,quat_x,quat_y,quat_z,quat_w"}) {
+    std::string table = header;
+    std::ranges::replace(table, ' ', header.find(',') == std::string::npos ? ',' : ' ');
+    expect_pose(read(table + "\n0.5,1,2,3,0,0,0,1\n").rows[0], 1, 2, 3, 0);
+  }
 }
 
 TEST(PoseFile, MendsAQuaternionWithinOnePercentOnly) {

@@ -55,6 +55,38 @@ TEST(ScanFolder, ReadsScansInNaturalOrderOnceASecond) {
   EXPECT_FALSE(scans.odometry());
 }
 
+TEST(ScanFolder, TakesTimesInNamesWhereNoTableTellsThem) {
+  const TemporaryFolder folder;
+  for (const char* name : {"1700000001.5.ply", "1700000001.25.ply", "1700000002.ply"})
+    put_scan(folder, name, 1.0F);
+  folder.write("odometry.csv", "t,x,y,yaw\n1700000001.3,0,0,0\n");
+  const ScanFolder scans(folder.path());
+  EXPECT_TRUE(scans.has_times());
+  EXPECT_EQ(scans.time_note(), "the scans' times are those in their names, in seconds");
+  EXPECT_EQ(scans.file(0).filename(), "1700000001.25.ply");
+  EXPECT_EQ(scans.utime_us(1), 1700000001500000);
+  EXPECT_EQ(scans.utime_us(2), 1700000002000000);
+  put_scan(folder, "last.ply", 1.0F);  // now one has none
+  EXPECT_FALSE(ScanFolder(folder.path()).has_times());
+  EXPECT_EQ(ScanFolder(folder.path()).time_note(), "");
+}
+
+TEST(ScanFolder, MatchesRowsWithTimesInNames) {
+  const TemporaryFolder folder;
+  for (const char* name :
+       {"1403636579763555584.ply", "1403636580763555584.ply", "1403636581763555584.ply"})
+    put_scan(folder, name, 1.0F);
+  folder.write("poses.csv",
+               "#timestamp [ns],p_x [m],p_y [m],p_z [m],q_w [],q_x [],q_y [],q_z []\n"
+               "1403636579763555584,1,0,0,1,0,0,0\n1403636580100000000,9,0,0,1,0,0,0\n"
+               "1403636581763555584,3,0,0,1,0,0,0\n");
+  const ScanFolder scans(folder.path());
+  EXPECT_EQ(scans.truth(0)->translation().x(), 1.0);
+  EXPECT_FALSE(scans.truth(1));
+  EXPECT_EQ(scans.truth(2)->translation().x(), 3.0);
+  EXPECT_EQ(scans.utime_us(1), 1403636580763555);
+}
+
 TEST(ScanFolder, TakesOtherNamesWhenNoneIsScan) {
   const TemporaryFolder folder;
   put_scan(folder, "b.ply", 2.0F);
