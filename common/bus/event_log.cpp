@@ -58,7 +58,8 @@ EventLogReader::EventLogReader(const std::string& path) {
 }
 
 void EventLogReader::open(const std::string& path) {
-  FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  // Not to wait for ever where it is a pipe.
+  FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   struct stat status {};
   if (file.get() < 0) throw std::runtime_error(system_error("open log", path));
   if (fstat(file.get(), &status) != 0 || !S_ISREG(status.st_mode))

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <lcm/eventlog.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 #include <fstream>
@@ -207,6 +208,12 @@ TEST_F(EventLog, ReportsAFullDisk) {
 
 TEST_F(EventLog, ReportsAPathThatCannotBeWritten) {
   EXPECT_THROW(EventLogWriter((folder_ / "no" / "such").string()), std::runtime_error);
+}
+
+TEST_F(EventLog, IsNotAPipe) {
+  const std::string pipe = folder_ / "pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_THROW(EventLogReader{pipe}, std::runtime_error);
 }
 
 TEST_F(EventLog, InPartsIsReadAsOneByItsName) {

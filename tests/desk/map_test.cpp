@@ -207,6 +207,16 @@ TEST_F(Map, HasNoVoxelWhereTheRobotStoodForRaysThatDidNotComeBack) {
     EXPECT_GT((voxel - Eigen::Vector3f(1.0F, 2.0F, 0.0F)).norm(), 0.1F);
 }
 
+TEST_F(Map, HasAnExitCodeWhenNoScanWasPlaced) {
+  fs::create_directory(work_ / "blind");
+  test::write_text(work_ / "blind/a.ply",
+                   "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\n"
+                   "property float y\nproperty float z\nend_header\nnan nan nan\n");
+  const test::DeskRun run = map(work_ / "blind", folder_);
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.err, HasSubstr("the map is empty: no scan was placed"));
+}
+
 TEST_F(Map, RefusesGivenPosesOfAnotherRun) {
   test::write_text(work_ / "given.csv", "t,x,y,yaw\n1000,1,2,0.5\n");
   const test::DeskRun run = map(import(), folder_, {"--use-poses", work_ / "given.csv"});

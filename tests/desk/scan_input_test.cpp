@@ -235,7 +235,7 @@ TEST_F(ScanInputs, TellWhatIsOddWithPoints) {
   EXPECT_EQ(told(points), "");
   std::fill_n(points.begin(), 20, Eigen::Vector3f::Zero());
   EXPECT_THAT(told(points), HasSubstr("20 of 60 points are 0,0,0 or nearer than min_range_m"));
-  EXPECT_THAT(told({{3.0F, 0.0F, 0.0F}}), HasSubstr("has only 1 points"));
+  EXPECT_THAT(told({{3.0F, 0.0F, 0.0F}}), HasSubstr("has 1 points"));
 }
 
 }  // namespace

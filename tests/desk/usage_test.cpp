@@ -111,6 +111,10 @@ TEST_F(Usage, SaysThatAFolderHasNoScans) {
 TEST_F(Usage, SaysThatAFileIsNoLog) {
   test::write_text(work_ / "letter.txt", "Dear robot,\n");
   expect_refusal({"map", work_ / "letter.txt", "-o", work_ / "out"}, "letter.txt: is no LCM log");
+  test::write_text(work_ / "a.bag", "#ROSBAG V2.0\n");
+  expect_refusal({"map", work_ / "a.bag", "-o", work_ / "out"}, "a.bag: is a ROS bag");
+  test::write_text(work_ / "a.ply", "ply\n");
+  expect_refusal({"map", work_ / "a.ply", "-o", work_ / "out"}, "give the folder that holds it");
   test::write_text(work_ / "nothing", "");
   expect_refusal({"map", work_ / "nothing", "-o", work_ / "out"}, "is no LCM log");
   EXPECT_FALSE(std::filesystem::exists(work_ / "out"));

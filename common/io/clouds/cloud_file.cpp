@@ -7,6 +7,7 @@
 #include "voxlist/io/clouds/pcd.h"
 #include "voxlist/io/clouds/ply.h"
 #include "voxlist/io/files/cursor.h"
+#include "voxlist/io/files/file_kind.h"
 
 namespace voxlist::io {
 namespace {
@@ -19,6 +20,12 @@ std::string lower_extension(const std::filesystem::path& path) {
   return extension;
 }
 
+// What a file says of itself goes before its name.
+Cloud parse(std::string_view bytes, const std::string& extension) {
+  const bool is_ply = bytes.starts_with("ply"), is_pcd = bytes.starts_with("# .PCD");
+  return is_ply || (extension == ".ply" && !is_pcd) ? parse_ply(bytes) : parse_pcd(bytes);
+}
+
 }  // namespace
 
 Cloud read_cloud_file(const std::filesystem::path& path) {
@@ -28,8 +35,9 @@ Cloud read_cloud_file(const std::filesystem::path& path) {
   }
   const std::string bytes = read_file(path);
   try {
-    return extension == ".ply" ? parse_ply(bytes) : parse_pcd(bytes);
+    return parse(without_mark(bytes), extension);
   } catch (const FormatError& error) {
+    if (const std::string what = what_it_is(bytes); !what.empty()) throw FileError(path, what);
     throw FileError(path, std::string(error.what()) + "; copy or export the scan again");
   }
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "voxlist/io/files/cursor.h"
+#include "voxlist/io/files/file_kind.h"
 
 namespace voxlist::io {
 namespace {
@@ -62,12 +63,8 @@ std::vector<std::string> split(std::string_view line, char separator) {
 }  // namespace
 
 CsvTable::CsvTable(const std::filesystem::path& path) : path_(path) {
-  std::string bytes = read_file(path);
-  bytes += '\n';
-  std::string_view rest = bytes;
-  if (rest.starts_with("\xEF\xBB\xBF")) {
-    rest.remove_prefix(3);
-  }
+  const std::string text = read_text(path);
+  std::string_view rest = text;
   char separator = ',';
   for (std::size_t line_number = 1; !rest.empty(); ++line_number) {
     const std::string_view line = trim(take_line(rest));
@@ -76,6 +73,7 @@ CsvTable::CsvTable(const std::filesystem::path& path) : path_(path) {
     }
     if (names_.empty()) {
       separator = separator_of(line);
+      decimal_commas_ = separator != ',';
       for (const std::string& name : split(line, separator)) {
         names_.push_back(plain_name(name));
       }
@@ -113,10 +111,18 @@ const std::string& CsvTable::text(std::size_t row, std::size_t column) const {
   return column < cells.size() ? cells[column] : kEmpty;
 }
 
+std::string CsvTable::number_text(std::size_t row, std::size_t column) const {
+  std::string number = text(row, column);
+  if (decimal_commas_ && std::ranges::count(number, ',') == 1 &&
+      number.find('.') == std::string::npos)
+    std::ranges::replace(number, ',', '.');
+  return number;
+}
+
 double CsvTable::number(std::size_t row, std::size_t column) const {
   double value = 0.0;
   try {
-    value = parse_number(text(row, column));
+    value = parse_number(number_text(row, column));
   } catch (const FormatError& problem) {
     throw error(row, column, problem.what());
   }
@@ -128,7 +134,7 @@ double CsvTable::number(std::size_t row, std::size_t column) const {
 
 bool CsvTable::is_not_finite(std::size_t row, std::size_t column) const {
   try {
-    return !std::isfinite(parse_number(text(row, column)));
+    return !std::isfinite(parse_number(number_text(row, column)));
   } catch (const FormatError&) {
     return false;
   }

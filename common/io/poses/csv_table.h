@@ -13,10 +13,10 @@ namespace voxlist::io {
 
 /// A table with a header line, separated by commas, semicolons or tabs (whichever the header has).
 ///
-/// Tolerates a byte order mark, CRLF, quoted cells, blank lines, and # before comments and before
-/// the header. Column names are compared in a plain form: lower case, runs of other signs than
-/// letters and digits as one underscore ("X [m]" is "x_m"). What is wrong with a cell is told with
-/// its line and column.
+/// Where commas separate nothing they may be decimal ones (0,5). Tolerates a byte order mark, CRLF,
+/// quoted cells, blank lines, and # before comments and before the header. Column names are
+/// compared in a plain form: lower case, runs of other signs than letters and digits as one
+/// underscore ("X [m]" is "x_m"). What is wrong with a cell is told with its line and column.
 class CsvTable {
  public:
   /// Throws FileError when the file cannot be read, has no header, or has a row with more cells
@@ -50,10 +50,12 @@ class CsvTable {
     std::vector<std::string> cells;
   };
 
+  std::string number_text(std::size_t row, std::size_t column) const;
   void check_length(std::size_t row) const;
 
   std::filesystem::path path_;
   std::vector<std::string> names_;
+  bool decimal_commas_ = false;
   std::vector<Row> rows_;
 };
 

@@ -10,6 +10,7 @@
 #include "voxlist/geometry/time_limit.h"
 #include "voxlist/io/files/cursor.h"
 #include "voxlist/io/files/file.h"
+#include "voxlist/io/files/file_kind.h"
 
 namespace voxlist::io {
 namespace {
@@ -49,9 +50,8 @@ struct Lines {
 };
 
 Lines lines_of(const std::filesystem::path& path) {
-  const std::string bytes = read_file(path) + "\n";
-  std::string_view rest = bytes;
-  if (rest.starts_with("\xEF\xBB\xBF")) rest.remove_prefix(3);
+  const std::string text = read_text(path);
+  std::string_view rest = text;
   Lines lines;
   for (std::size_t number = 1; !rest.empty(); ++number) {
     Line line = take_row(rest, number);

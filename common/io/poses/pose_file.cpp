@@ -2,8 +2,10 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <numbers>
 #include <set>
 
 #include "voxlist/geometry/angle.h"
@@ -161,6 +163,23 @@ class RowReader {
   std::size_t row_;
 };
 
+// Degrees in a column of radians go far beyond a turn; so do radians that nobody wrapped, so that
+// it is only told.
+void note_degrees(const CsvTable& csv, PoseTable& table) {
+  constexpr double kTurns_rad = 2.05 * std::numbers::pi;
+  const auto column = csv.column({"yaw"});
+  if (!column) return;
+  double largest = 0.0;
+  for (std::size_t row = 0; row < csv.rows(); ++row)
+    if (!csv.is_not_finite(row, *column))
+      largest = std::max(largest, std::abs(csv.number(row, *column)));
+  if (largest > kTurns_rad)
+    table.notes.push_back(
+        fmt::format("yaw goes up to {:g} and is taken for radians: call the column "
+                    "yaw_deg if these are degrees",
+                    largest));
+}
+
 }  // namespace
 
 PoseTable read_poses(const std::filesystem::path& path) {
@@ -203,6 +222,7 @@ PoseTable read_pose_csv(const std::filesystem::path& path) {
   if (table.rows.empty()) {
     throw FileError(path, "has no poses, add a line for each");
   }
+  note_degrees(csv, table);
   return table;
 }
 

@@ -34,6 +34,8 @@ struct PoseTable {
   bool has_heights = false;
   /// Rows left out because their whole position is nan or inf: poses that nobody knows.
   std::size_t unknown = 0;
+  /// What a person should know: units that look wrong.
+  std::vector<std::string> notes = {};
 };
 
 /// Reads poses in any form that is known, by the content:

@@ -159,6 +159,7 @@ void tell_rows(const PoseTable& table, RowMatch& match) {
                                        : std::to_string(table.rows[row].scan));
   }
   if (!unused.empty()) match.notes.push_back(sentence("row ", unused, "scan"));
+  match.notes.insert(match.notes.end(), table.notes.begin(), table.notes.end());
   if (table.unknown > 0)
     match.notes.push_back(fmt::format("{} rows hold no pose (nan or inf)", table.unknown));
 }

@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "voxlist/io/clouds/cloud_file.h"
-#include "voxlist/io/files/cursor.h"
-#include "voxlist/io/files/natural_order.h"
+#include "voxlist/io/files/file.h"
 #include "voxlist/io/files/time_in_name.h"
+#include "voxlist/io/scans/scan_files.h"
 
 namespace voxlist::io {
 namespace {
@@ -29,50 +29,6 @@ constexpr std::int64_t kSameTime_us = 10'000;
 // Time between scans of which no table says when they were taken (us).
 constexpr std::int64_t kDefaultPeriod_us = 1'000'000;
 
-bool is_cloud(const fs::directory_entry& entry) {
-  const std::string name = lower_case(entry.path().filename().string());
-  const bool is_hidden = name.starts_with('.'), is_own_map = name == "map.ply";
-  std::error_code ignored;
-  return (name.ends_with(".ply") || name.ends_with(".pcd")) && !is_hidden && !is_own_map &&
-         entry.is_regular_file(ignored);
-}
-
-Files clouds_in(const fs::path& folder) {
-  std::error_code failure;
-  Files files;
-  for (const auto& entry : fs::directory_iterator(folder, failure)) {
-    if (is_cloud(entry)) {
-      files.push_back(entry.path());
-    }
-  }
-  if (failure) {
-    throw FileError(folder, "no folder that can be read, give the folder that holds the scans");
-  }
-  return files;
-}
-
-Files find_scans(const fs::path& folder) {
-  Files files = clouds_in(folder);
-  const auto is_other = [](const fs::path& file) {
-    return !lower_case(file.filename().string()).starts_with("scan_");
-  };
-  if (!std::all_of(files.begin(), files.end(), is_other)) {
-    std::erase_if(files, is_other);
-  }
-  if (files.empty()) {
-    throw FileError(folder, "has no scans, put scan_000.ply (or .pcd), scan_001.ply, ... there");
-  }
-  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
-    return natural_less(a.filename().string(), b.filename().string());
-  });
-  for (std::size_t i = 1; i < files.size(); ++i) {
-    if (files[i].stem() == files[i - 1].stem()) {
-      throw FileError(files[i], "is there in two formats, keep one");
-    }
-  }
-  return files;
-}
-
 /// The time of a scan from those of others (at least one).
 std::int64_t time_of(std::int64_t scan, const std::map<std::int64_t, std::int64_t>& known) {
   const auto after = known.lower_bound(scan);
@@ -87,7 +43,10 @@ std::int64_t time_of(std::int64_t scan, const std::map<std::int64_t, std::int64_
 
 }  // namespace
 
-ScanFolder::ScanFolder(const fs::path& folder) : files_(find_scans(folder)) {
+ScanFolder::ScanFolder(const fs::path& folder) {
+  ScanFiles found = find_scan_files(folder);
+  files_ = std::move(found.files);
+  notes_ = std::move(found.notes);
   rows_.rows.resize(files_.size());
   take_times_in_names();
   if (fs::exists(folder / "poses.csv")) {
@@ -96,8 +55,7 @@ ScanFolder::ScanFolder(const fs::path& folder) : files_(find_scans(folder)) {
   if (utimes_us_.empty() && !in_names_.empty()) {
     utimes_us_ = in_names_;
     check_times(folder);
-  } else {
-    time_note_.clear();
+    notes_.push_back(time_note_);
   }
   for (auto scan = static_cast<std::int64_t>(utimes_us_.size()); utimes_us_.size() < files_.size();
        ++scan) {
@@ -161,19 +119,24 @@ void ScanFolder::check_times(const fs::path& path) const {
   if (steps > 0 && first == last) {
     throw FileError(path, "gives all scans the same time, leave the column out or mend it");
   }
-  for (std::size_t scan = 1; scan < utimes_us_.size(); ++scan) {
-    if (utimes_us_[scan] <= utimes_us_[scan - 1]) {
-      throw FileError(
-          path,
-          fmt::format("puts {} no later than {}, number the scans in order of time",
-                      files_[scan].filename().string(), files_[scan - 1].filename().string()));
-    }
-  }
+  for (std::size_t scan = 1; scan < utimes_us_.size(); ++scan) check_order(path, scan);
   if (steps > 0 && (last - first) / steps < kLeastPeriod_us) {
     throw FileError(path, fmt::format("puts scans {} us apart: are its times in seconds or "
                                       "milliseconds? utime is in microseconds, t in seconds",
                                       (last - first) / steps));
   }
+}
+
+void ScanFolder::check_order(const fs::path& path, std::size_t scan) const {
+  const std::int64_t step_us = utimes_us_[scan] - utimes_us_[scan - 1];
+  if (step_us > 0) return;
+  const std::string own = files_[scan].filename(), before = files_[scan - 1].filename();
+  throw FileError(
+      path, step_us == 0
+                ? fmt::format("gives {} and {} the same time, give each its own (with "
+                              "decimals, if they are whole seconds)",
+                              before, own)
+                : fmt::format("puts {} before {}, number the scans in order of time", own, before));
 }
 
 Cloud ScanFolder::read(std::size_t scan) const {

@@ -53,8 +53,8 @@ class ScanFolder {
   /// What a person should know of how poses.csv and the scans belong together.
   const std::vector<std::string>& notes() const { return rows_.notes; }
 
-  /// "the scans' times are those in their names, in nanoseconds"; empty where they are not.
-  const std::string& time_note() const { return time_note_; }
+  /// And of the files: what is left out, and that the times are those in their names.
+  const std::vector<std::string>& file_notes() const { return notes_; }
 
  private:
   void take_times_in_names();
@@ -62,11 +62,13 @@ class ScanFolder {
   void take_times_of_rows();
   void take_poses(const std::filesystem::path& path);
   void check_times(const std::filesystem::path& path) const;
+  void check_order(const std::filesystem::path& path, std::size_t scan) const;
 
   std::vector<std::filesystem::path> files_;
   std::vector<std::int64_t> in_names_;  // times, where all names have one
   std::vector<std::int64_t> utimes_us_;
   std::string time_note_;
+  std::vector<std::string> notes_;
   std::optional<PoseTable> poses_;
   std::optional<PoseTable> odometry_;
   RowMatch rows_;

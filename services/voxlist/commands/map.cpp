@@ -102,10 +102,13 @@ void refuse_robots_map(const std::filesystem::path& folder) {
                       "folder, or --force to replace it");
 }
 
-// Scans that were placed, and still nothing to see.
+// No scan was placed, or all were and there is still nothing to see.
 bool tell_if_empty(const MapRun& run, Console& console) {
-  if (run.trajectory().empty() || !run.builder().map().empty()) return false;
-  console.warn("the map is empty: no point of any scan lies between min_range_m and max_range_m");
+  if (!run.builder().map().empty()) return false;
+  console.warn(run.trajectory().empty()
+                   ? "the map is empty: no scan was placed"
+                   : "the map is empty: no point of any scan lies between min_range_m and "
+                     "max_range_m");
   return true;
 }
 

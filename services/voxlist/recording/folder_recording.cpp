@@ -10,7 +10,7 @@ class FolderRecording : public Recording {
  public:
   FolderRecording(const std::filesystem::path& folder, Omissions& omissions)
       : omissions_(omissions), folder_(folder), events_(io::events_of(folder_)) {
-    if (!folder_.time_note().empty()) omissions_.remark(folder_.time_note());
+    for (const std::string& note : folder_.file_notes()) omissions_.remark(note);
     tell(folder_.notes());
     if (events_.front().utime_us < 0) {
       throw io::FileError(folder,

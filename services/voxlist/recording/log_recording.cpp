@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <fstream>
 #include <map>
 
 #include "services/voxlist/recording/channel_counts.h"
 #include "services/voxlist/recording/recording.h"
 #include "voxlist/bus/event_log.h"
 #include "voxlist/io/files/file.h"
+#include "voxlist/io/files/file_kind.h"
 #include "voxlist/system/file_parts.h"
 
 namespace voxlist::desk {
@@ -46,12 +48,21 @@ RowOfScan match_numbers(const io::PoseTable& poses) {
   };
 }
 
+std::string why_no_log(const std::filesystem::path& path) {
+  std::string start(512, '\0');
+  std::ifstream(path).read(start.data(), std::ssize(start));
+  if (start.starts_with("ply") || start.starts_with("# .PCD"))
+    return "is one scan, give the folder that holds it";
+  const std::string what = io::what_it_is(start);
+  return what.empty() ? "is no LCM log, give one or a folder of scans" : what;
+}
+
 class LogRecording : public Recording {
  public:
   LogRecording(const std::filesystem::path& path, std::string prefix, Omissions& omissions)
       : path_(path), prefix_(std::move(prefix)), omissions_(omissions), log_(path.string()) {
     if (!bus::EventLogReader(path.string()).next()) {
-      throw io::FileError(path, "is no LCM log, give one or a folder of scans");
+      throw io::FileError(path, why_no_log(path));
     }
     tell_parts();
   }

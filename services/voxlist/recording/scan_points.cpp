@@ -53,7 +53,7 @@ void remark_on_points(std::int64_t number, const pointcloud_t& message, const Cl
                            "beyond {:.0f} m: are they millimetres? They must be in metres, in base",
                            number, ranges.far, points, limits.max_range_m, ranges.median_m()));
   } else if (cloud.points.size() < kFewPoints) {
-    omissions.remark("few", fmt::format("scan {} has only {} points: was the lens covered, or "
+    omissions.remark("few", fmt::format("scan {} has {} points: was the lens covered, or "
                                         "nothing in range?",
                                         number, cloud.points.size()));
   }

@@ -41,6 +41,23 @@ TEST(CloudFile, ExtensionMayBeUpperCase) {
   EXPECT_EQ(read_cloud_file(folder.write("A.PLY", sample.bytes)).points.size(), 20U);
 }
 
+TEST(CloudFile, ContentGoesBeforeTheExtension) {
+  const TemporaryFolder folder;
+  for (const auto& sample : test::scan_samples()) {
+    const std::string other = sample.extension == ".ply" ? "a.pcd" : "a.ply";
+    if (sample.extension == ".pcd" && !sample.bytes.starts_with("# .PCD")) continue;
+    EXPECT_EQ(read_cloud_file(folder.write(other, sample.bytes)).points.size(), 20U) << other;
+    EXPECT_EQ(read_cloud_file(folder.write(other, "\xEF\xBB\xBF" + sample.bytes)).points.size(),
+              20U);
+  }
+}
+
+TEST(CloudFile, SaysWhatAFileIsThatIsNone) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(error_of(folder.write("a.ply", "\x1f\x8b\x08 packed")),
+            (folder / "a.ply").string() + ": is compressed (gzip), unpack it first");
+}
+
 TEST(CloudFile, DropsPointsThatAreNotFinite) {
   const TemporaryFolder folder;
   const auto ply = folder.write("a.ply",

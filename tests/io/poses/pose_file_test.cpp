@@ -72,6 +72,17 @@ TEST(PoseFile, KnowsTheNamesOfOthers) {
   }
 }
 
+TEST(PoseFile, ReadsDecimalCommasWhereCommasSeparateNothing) {
+  expect_pose(read("t;x;y;z;yaw\n0,5;1,25;-2,5;3.5;0,25\n").rows[0], 1.25, -2.5, 3.5, 0.25);
+  EXPECT_NE(error_of("t;x;y;yaw\n0;1.234,5;2;0\n").find("column x"), std::string::npos);
+}
+
+TEST(PoseFile, AsksAboutAYawOfManyTurns) {
+  EXPECT_EQ(read("x,y,yaw\n0,0,270\n").notes.size(), 1U);
+  EXPECT_TRUE(read("x,y,yaw\n0,0,-3.2\n").notes.empty());
+  EXPECT_TRUE(read("x,y,yaw_deg\n0,0,270\n").notes.empty());
+}
+
 TEST(PoseFile, MendsAQuaternionWithinOnePercentOnly) {
   const auto table = read("x,y,z,qx,qy,qz,qw\n0,0,0,0,0,0,1.009\n");
   EXPECT_TRUE(table.rows[0].pose.isApprox(Pose3::Identity(), 1e-12));

@@ -62,13 +62,14 @@ TEST(ScanFolder, TakesTimesInNamesWhereNoTableTellsThem) {
   folder.write("odometry.csv", "t,x,y,yaw\n1700000001.3,0,0,0\n");
   const ScanFolder scans(folder.path());
   EXPECT_TRUE(scans.has_times());
-  EXPECT_EQ(scans.time_note(), "the scans' times are those in their names, in seconds");
+  EXPECT_EQ(scans.file_notes(),
+            (std::vector<std::string>{"the scans' times are those in their names, in seconds"}));
   EXPECT_EQ(scans.file(0).filename(), "1700000001.25.ply");
   EXPECT_EQ(scans.utime_us(1), 1700000001500000);
   EXPECT_EQ(scans.utime_us(2), 1700000002000000);
   put_scan(folder, "last.ply", 1.0F);  // now one has none
   EXPECT_FALSE(ScanFolder(folder.path()).has_times());
-  EXPECT_EQ(ScanFolder(folder.path()).time_note(), "");
+  EXPECT_TRUE(ScanFolder(folder.path()).file_notes().empty());
 }
 
 TEST(ScanFolder, MatchesRowsWithTimesInNames) {
@@ -160,6 +161,38 @@ TEST(ScanFolder, LeavesOutHiddenFilesOurOwnMapAndWhatIsNoFile) {
   EXPECT_EQ(scans.read(0).points[0].x(), 5.0F);
 }
 
+TEST(ScanFolder, TellsWhatLooksLikeAScanAndIsNone) {
+  const TemporaryFolder folder;
+  put_scan(folder, "scan_0.ply", 0.0F);
+  put_scan(folder, "whole_room.ply", 0.0F);
+  std::filesystem::create_symlink("nowhere", folder / "scan_1.ply");
+  std::filesystem::create_symlink("scan_2.ply", folder / "scan_2.ply");
+  std::filesystem::create_directory(folder / "scan_3.ply");
+  const ScanFolder scans(folder.path());
+  EXPECT_EQ(scans.size(), 1U);
+  EXPECT_EQ(scans.file_notes(),
+            (std::vector<std::string>{
+                "scan_1.ply, scan_2.ply, scan_3.ply: no file, or a link to one that is not there",
+                "whole_room.ply: no scan, as others are named scan_..."}));
+}
+
+TEST(ScanFolder, SaysWhatAFolderWithoutScansHolds) {
+  const TemporaryFolder folder;
+  folder.write("scan_0.ply.gz", "");
+  folder.write("scan_1.ply.gz", "");
+  folder.write("notes", "");
+  EXPECT_NE(error_of(folder.path()).find("it holds 1 without an ending, 2 .gz"), std::string::npos)
+      << error_of(folder.path());
+}
+
+TEST(ScanFolder, SaysThatTwoScansHaveOneTime) {
+  const TemporaryFolder folder;
+  for (const char* name : {"scan_0.ply", "scan_1.ply", "scan_2.ply"}) put_scan(folder, name, 0.0F);
+  folder.write("poses.csv", "t,x,y,yaw\n1,0,0,0\n1,0,0,0\n2,0,0,0\n");
+  EXPECT_NE(error_of(folder.path()).find("gives scan_0.ply and scan_1.ply the same time"),
+            std::string::npos);
+}
+
 TEST(ScanFolder, TakesPosesInTheFormsOfOthers) {
   const TemporaryFolder folder;
   for (int i = 0; i < 3; ++i) put_scan(folder, "scan_" + std::to_string(i) + ".ply", 0.0F);
@@ -192,8 +225,7 @@ TEST(ScanFolder, SaysWhatIsWrong) {
   folder.write("poses.csv", "index,x,y,yaw\n7,0,0,0\n");
   EXPECT_NE(error_of(folder.path()).find("matches none"), std::string::npos);
   folder.write("poses.csv", "index,t,x,y,yaw\n0,5,0,0,0\n1,4,0,0,0\n");
-  EXPECT_NE(error_of(folder.path()).find("puts scan_1.ply no later than scan_0.ply"),
-            std::string::npos);
+  EXPECT_NE(error_of(folder.path()).find("puts scan_1.ply before scan_0.ply"), std::string::npos);
   folder.write("poses.csv", "index,x,y,yaw\n0,0,0,0\n");
   folder.write("scan_1.pcd", "");
   EXPECT_NE(error_of(folder.path()).find("two formats"), std::string::npos);
