@@ -58,12 +58,20 @@ class OctomapBuilder {
 
   /// Adds a cloud: frees the voxels that its rays pass, occupies those that they hit; a voxel
   /// counts once a cloud, and one both hit and passed is hit, as in octomap's insertPointCloud.
-  /// Rays that leave the tree's bounds (2^15 voxels from the origin) are left out. Asks `stopped`,
-  /// where given, every few rays; once it says yes the cloud is left out, and the answer is false.
+  /// Rays that leave the tree's bounds (2^15 voxels from the origin) are left out. Where the rays
+  /// of a cloud pass more than a million voxels, all are followed only so far, and every end point
+  /// is kept. Asks `stopped`, where given, every few milliseconds; once it says yes what is missing
+  /// of the cloud is left out, and the answer is false.
   bool insert(const Pose3& T_map_base, const Cloud& cloud_base,
               const std::function<bool()>& stopped = {});
 
+  /// The shortest distance that the rays of a cloud were followed to for their number's sake;
+  /// infinite while all were followed to their ends.
+  double reach_m() const;
+
   /// The bytes of a .bt file, as map_octree_t carries them: every voxel free or occupied, pruned.
+  /// Costs what has changed since the last call, and the copying of the bytes. Not from two threads
+  /// at once.
   std::vector<std::uint8_t> binary() const;
 
   /// Writes a .bt file, never one that is half there. Throws FileError when it cannot.

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <cmath>
 #include <fstream>
 #include <utility>
 
@@ -45,6 +46,14 @@ void tell_what_lies_beyond(int beyond, const planning::OctomapConfig& config, Co
                   beyond, reach_m(config) / 1000.0, config.resolution_m));
 }
 
+void tell_if_shortened(double reach_m, Console& console) {
+  if (std::isinf(reach_m)) return;
+  console.warn(
+      fmt::format("map.bt: a scan's rays pass too many voxels and free only {:.0f} m of "
+                  "their way: give a larger --octomap-resolution",
+                  reach_m));
+}
+
 }  // namespace
 
 MapFiles::MapFiles(fs::path folder)
@@ -75,6 +84,7 @@ void MapFiles::write_octomap(const planning::OctomapConfig& config, bool wanted,
     progress.show(keyframes.progress());
   }
   tell_what_lies_beyond(beyond, config, console);
+  tell_if_shortened(octomap.reach_m(), console);
   if (!stop_requested()) return octomap.write_bt(folder_ / "map.bt");
   remove_octomap();
   console.warn("interrupted: there is no map.bt");
