@@ -141,6 +141,21 @@ TEST_F(Extend, AddsWhatIsNewBehindWhatWasThere) {
   expect_refusal({"map", scans_, "-o", folder_}, "voxlist extend");
 }
 
+TEST_F(Extend, GivesAMapThatCanBeExportedThoughItsTimesGoBack) {
+  ASSERT_EQ(desk({"map", scans_, "-o", folder_, "--force"}).exit_code, 0);
+  test::write_text(work_ / "robot.toml", "[mapper]\nmin_news = 0.0\n");
+  ASSERT_EQ(desk({"extend", folder_, work_ / "first", "--config", work_ / "robot.toml"}).exit_code,
+            0);
+  const test::DeskRun out = test::run({"export", folder_, "-o", work_ / "out"});
+  ASSERT_EQ(out.exit_code, 0) << out.err;
+  EXPECT_THAT(out.err, HasSubstr("times go back"));
+  const test::DeskRun again =
+      desk({"map", work_ / "out", "-o", work_ / "again", "--use-poses", work_ / "out/poses.csv"});
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_EQ(nlohmann::json::parse(test::read_text(work_ / "again/summary.json"))["map_hash"],
+            summary()["map_hash"]);
+}
+
 TEST_F(Extend, GivesTheVeryMapThatARebuildGives) {
   ASSERT_EQ(desk({"extend", folder_, scans_}).exit_code, 0);
   const std::string voxels = text("map.ply"), octomap = text("map.bt");

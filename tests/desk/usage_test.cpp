@@ -128,6 +128,14 @@ TEST_F(Usage, SaysThatTheOutputCannotBeWritten) {
   expect_refusal({"map", work_ / "scans", "-o", work_ / "file"}, "cannot be made a folder");
 }
 
+TEST_F(Usage, TakesAwayWhatAKilledRunLeft) {
+  test::make_scan_set(work_ / "scans");
+  const std::string left = work_ / "a.lcm.tmp-2000000000-0";  // no process has this number
+  test::write_text(left, "half");
+  EXPECT_EQ(test::run({"import", work_ / "scans", "-o", work_ / "a.lcm"}).exit_code, 0);
+  EXPECT_FALSE(std::filesystem::exists(left));
+}
+
 TEST_F(Usage, SaysThatAMapIsNone) {
   test::make_scan_set(work_ / "scans");
   expect_refusal({"localise", work_ / "scans", work_ / "scans", "-o", work_ / "result.csv"},

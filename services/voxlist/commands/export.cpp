@@ -1,7 +1,10 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <functional>
 #include <memory>
+#include <vector>
 
 #include "services/voxlist/commands/command.h"
 #include "services/voxlist/output/console.h"
@@ -31,27 +34,57 @@ void make_empty_folder(const fs::path& folder) {
     throw io::FileError(folder, "is not empty, give a new folder for the scans");
 }
 
-std::string row(std::size_t index, const mapping::Keyframe& keyframe) {
-  const Eigen::Vector3d p = keyframe.T_map_base.translation();
-  const Eigen::Quaterniond q(keyframe.T_map_base.linear());
-  return fmt::format("{},{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}\n", index,
-                     keyframe.cloud.utime_us, p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w());
-}
+// poses.csv. A map of several visits may hold times that go back, which no recording does: then the
+// table tells none.
+class Table {
+ public:
+  void add(const mapping::Keyframe& keyframe) {
+    utimes_us_.push_back(keyframe.cloud.utime_us);
+    const Eigen::Vector3d p = keyframe.T_map_base.translation();
+    const Eigen::Quaterniond q(keyframe.T_map_base.linear());
+    poses_.push_back(fmt::format("{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}", p.x(),
+                                 p.y(), p.z(), q.x(), q.y(), q.z(), q.w()));
+  }
+
+  bool has_times() const {
+    return std::ranges::adjacent_find(utimes_us_, std::greater_equal<>()) == utimes_us_.end();
+  }
+
+  std::string text() const {
+    std::string text = has_times() ? "index,utime," : "index,";
+    text += "x_m,y_m,z_m,qx,qy,qz,qw\n";
+    for (std::size_t i = 0; i < poses_.size(); ++i) {
+      const std::string time = has_times() ? fmt::format("{},", utimes_us_[i]) : "";
+      text += fmt::format("{},{}{}\n", i, time, poses_[i]);
+    }
+    return text;
+  }
+
+  std::size_t size() const { return poses_.size(); }
+
+ private:
+  std::vector<std::int64_t> utimes_us_;
+  std::vector<std::string> poses_;
+};
 
 int export_map(const ExportOptions& options, Console& console) {
   mapping::KeyframeReader reader(options.map / mapping::kKeyframeFile);
   make_empty_folder(options.folder);
-  std::string table = "index,utime,x_m,y_m,z_m,qx,qy,qz,qw\n";
-  std::size_t scans = 0;
+  Table table;
   while (!stop_requested()) {
     const auto keyframe = reader.next();
     if (!keyframe) break;
-    io::write_ply(options.folder / fmt::format("scan_{:04}.ply", scans), keyframe->cloud);
-    table += row(scans++, *keyframe);
+    io::write_ply(options.folder / fmt::format("scan_{:04}.ply", table.size()), keyframe->cloud);
+    table.add(*keyframe);
   }
-  io::write_file_atomically(options.folder / "poses.csv", table);
+  io::write_file_atomically(options.folder / "poses.csv", table.text());
   if (!reader.warning().empty()) console.warn(reader.warning());
-  console.say(fmt::format("{}: {} scans with their poses", options.folder.string(), scans));
+  console.say(fmt::format("{}: {} scans with their poses", options.folder.string(), table.size()));
+  if (!table.has_times())
+    console.warn(
+        "the keyframes' times go back, so poses.csv tells none: the scans are those of several "
+        "visits");
+  if (stop_requested()) console.warn("interrupted: the scans end there");
   return 0;
 }
 

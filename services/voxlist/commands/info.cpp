@@ -69,6 +69,10 @@ class MapInfo {
 
 int info(const InfoOptions& options, Console& console) {
   const MapInfo map(options.folder);
+  if (stop_requested()) {
+    console.warn("interrupted: the map was not read to its end");
+    return kInterrupted;
+  }
   if (!map.warning().empty()) console.warn(map.warning());
   const nlohmann::ordered_json json = map.json();
   if (options.json) {

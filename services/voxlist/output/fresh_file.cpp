@@ -8,14 +8,18 @@
 #include <fstream>
 #include <utility>
 
+#include "voxlist/io/files/atomic_file.h"
 #include "voxlist/io/files/file.h"
 
 namespace voxlist::desk {
 namespace fs = std::filesystem;
 
 FreshFile::FreshFile(fs::path target) : target_(std::move(target)), path_(target_) {
-  path_ += fmt::format(".unfinished-{}", getpid());
+  // As io::AtomicFile names its own, so that the same call takes away what a killed process left.
+  static unsigned number = 0;
+  path_ += fmt::format(".tmp-{}-{}", getpid(), number++);
   std::error_code ignored;
+  io::remove_stale_temporaries(target_.has_parent_path() ? target_.parent_path() : ".");
   if (fs::exists(target_, ignored) && !fs::is_regular_file(target_, ignored)) {
     throw io::FileError(target_, "is there and no regular file, choose another name");
   }
