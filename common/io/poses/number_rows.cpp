@@ -143,7 +143,7 @@ class Reader {
  private:
   bool is_unknown(const Numbers& v) const {
     const auto is = [&](std::size_t i) { return !std::isfinite(v[i]); };
-    return has_times_ ? is(1) && is(2) && is(3) : is(3) && is(7) && is(11);
+    return has_times_ ? is(1) && is(2) : is(3) && is(7);
   }
 
   Pose3 pose(const Numbers& v) const {
@@ -170,6 +170,20 @@ bool has_names(const std::vector<Line>& lines) {
          lines[0].text.find_first_of("0123456789") == std::string::npos;
 }
 
+// Numbers alone are no header.
+void refuse_numbers(const std::filesystem::path& path, const Line& first) {
+  std::size_t count = 0;
+  try {
+    count = numbers_of(first.text).size();
+  } catch (const FormatError&) {
+    return;
+  }
+  throw FileError(path,
+                  fmt::format("line {} has {} numbers and no line names them; a row of TUM has "
+                              "8 (t x y z qx qy qz qw), one of KITTI 12",
+                              first.number, count));
+}
+
 }  // namespace
 
 std::optional<PoseTable> read_number_rows(const std::filesystem::path& path) {
@@ -178,7 +192,10 @@ std::optional<PoseTable> read_number_rows(const std::filesystem::path& path) {
   if (lines.empty()) throw FileError(path, "has no poses, add a line for each");
   if (has_header(found)) return std::nullopt;
   if (has_names(lines)) lines.erase(lines.begin());
-  if (!is_pose_row(lines[0])) return std::nullopt;
+  if (!is_pose_row(lines[0])) {
+    refuse_numbers(path, lines[0]);
+    return std::nullopt;
+  }
   const Reader reader(lines[0]);
   PoseTable table{{}, false, false, reader.has_times(), true, 0};
   for (std::size_t row = 0; row < lines.size(); ++row) {

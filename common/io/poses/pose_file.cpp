@@ -99,12 +99,12 @@ class RowReader {
   RowReader(const CsvTable& csv, const Columns& columns, std::size_t row)
       : csv_(csv), columns_(columns), row_(row) {}
 
-  // nan or inf in each coordinate that the table gives.
+  // nan or inf in x and y; z may be a constant.
   bool is_unknown() const {
     const auto has_none = [this](const std::optional<Quantity>& coordinate) {
       return !coordinate || csv_.is_not_finite(row_, coordinate->column);
     };
-    return has_none(columns_.x) && has_none(columns_.y) && has_none(columns_.z);
+    return has_none(columns_.x) && has_none(columns_.y);
   }
 
   PoseRow read() const {

@@ -32,7 +32,7 @@ struct PoseTable {
   bool has_times = false;
   /// The table gives z; otherwise z is 0.
   bool has_heights = false;
-  /// Rows left out because their whole position is nan or inf: poses that nobody knows.
+  /// Rows left out because their x and y are nan or inf: poses that nobody knows.
   std::size_t unknown = 0;
   /// What a person should know: units that look wrong.
   std::vector<std::string> notes = {};
@@ -63,7 +63,7 @@ PoseTable read_poses(const std::filesystem::path& path);
 /// | heading (rad; degrees with the suffix _deg) | yaw, and roll and pitch or not (R = Rz Ry Rx),
 /// or qx, qy, qz, qw, or q_x, quat_x, orientation_x, q_rs_x, ... |
 ///
-/// A row whose position is nan or inf altogether is counted as unknown and left out. Throws
+/// A row whose x and y are nan or inf is counted as unknown and left out. Throws
 /// FileError (with line and column) on: missing columns, more cells than columns, no rows, what is
 /// not a finite number, a quaternion more than 1 % off unit length, a scan or file that comes
 /// twice.

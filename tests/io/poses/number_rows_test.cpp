@@ -99,5 +99,20 @@ TEST_F(NumberRows, OfOurOwnTrajectoryComeBackAtTheLimitsOfTime) {
   EXPECT_NEAR(static_cast<double>(back[1].utime_us), 9e15, 2.0);
 }
 
+TEST_F(NumberRows, OfAnotherLengthAreRefusedWithTheirNumber) {
+  try {
+    read("# t x y z qx qy qz\n1 2 3 4 0 0 1\n");
+    ADD_FAILURE() << "not refused";
+  } catch (const FileError& error) {
+    EXPECT_NE(std::string(error.what()).find("line 2 has 7 numbers"), std::string::npos);
+  }
+}
+
+TEST_F(NumberRows, WithoutXAndYAreUnknown) {
+  const PoseTable table = read("1 nan nan 0 0 0 0 1\n2 1 2 0 0 0 0 1\n3 -inf inf 0 nan 0 0 1\n");
+  EXPECT_EQ(table.rows.size(), 1U);
+  EXPECT_EQ(table.unknown, 2U);
+}
+
 }  // namespace
 }  // namespace voxlist::io
