@@ -34,7 +34,7 @@ std::map<int, fs::path> find(const fs::path& name) {
   const fs::path folder = name.has_parent_path() ? name.parent_path() : ".";
   for (const auto& entry : fs::directory_iterator(folder, failure)) {
     const std::string file = entry.path().filename().string();
-    if (!file.starts_with(base)) continue;
+    if (!file.starts_with(base) || !entry.exists(failure)) continue;
     if (const auto number = number_in(std::string_view(file).substr(base.size())))
       found.emplace(*number, name.parent_path() / file);
   }

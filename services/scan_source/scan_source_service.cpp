@@ -33,7 +33,10 @@ ScanSourceService::ScanSourceService(bus::Bus& bus, bus::Health& health,
       health_(health),
       config_(checked(config)),
       folder_(config.folder),
-      events_(io::events_of(folder_)) {}
+      events_(io::events_of(folder_)) {
+  for (const std::string& note : folder_.file_notes()) spdlog::warn("scans: {}", note);
+  for (const std::string& note : folder_.notes()) spdlog::warn("poses: {}", note);
+}
 
 void ScanSourceService::check(const ScanSourceConfig& config) { checked(config); }
 

@@ -93,11 +93,11 @@ TEST_F(ScanInputs, TellWhereOdometryStoodAtEachScan) {
 TEST_F(ScanInputs, CountForgedMessagesAndKeepTheNumbersOfTheOthers) {
   {
     bus::EventLogWriter log(work_ / "log");
-    write_cloud(log, 1);
+    write_cloud(log, 1000);
     log.write("CLOUD", 2, std::vector<std::uint8_t>(40, 0xff));
     log.write("ODOMETRY", 3, std::vector<std::uint8_t>(3, 0));
     log.write("SOMETHING_ELSE", 3, std::vector<std::uint8_t>(3, 0));
-    write_cloud(log, 4);
+    write_cloud(log, 4000);
   }
   const auto scans = read(work_ / "log");
   ASSERT_EQ(scans.size(), 2u);
@@ -148,6 +148,15 @@ TEST_F(ScanInputs, NameWhatALogWithoutScansHolds) {
   }
   EXPECT_THAT(refusal(work_ / "log"), HasSubstr("has no CLOUD; it holds VELODYNE_POINTS (3), "
                                                 "a/CLOUD (1)"));
+}
+
+TEST_F(ScanInputs, KnowMillisecondsOfASlowScanner) {
+  {
+    bus::EventLogWriter log(work_ / "log");
+    for (int i = 0; i < 4; ++i)
+      write_cloud(log, 1'700'000'000 + i);  // each a second, in milliseconds
+  }
+  EXPECT_THAT(refusal(work_ / "log"), HasSubstr("utime looks like milliseconds"));
 }
 
 TEST_F(ScanInputs, TellOfWhichRobotALogIs) {

@@ -19,9 +19,9 @@ namespace {
 namespace fs = std::filesystem;
 using Files = std::vector<fs::path>;
 
-// Scans that come closer together than this (us) have times in another unit: no 3D scanner makes a
-// thousand a second.
-constexpr std::int64_t kLeastPeriod_us = 1'000;
+// Scans that come closer together than this (us) have times in another unit: no 3D scanner makes
+// 200 a second.
+constexpr std::int64_t kLeastPeriod_us = 5'000;
 
 // How far a row's time may be from its scan's (us): what rounding to hundredths of a second costs.
 constexpr std::int64_t kSameTime_us = 10'000;

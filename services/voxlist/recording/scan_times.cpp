@@ -8,8 +8,9 @@
 namespace voxlist::desk {
 namespace {
 
-// No 3D scanner makes scans faster than this (us); times in seconds or milliseconds seem to be.
-constexpr std::int64_t kLeastPeriod_us = 1'000;
+// No 3D scanner makes scans faster than this (us): 200 a second. Times in seconds or milliseconds
+// seem to be.
+constexpr std::int64_t kLeastPeriod_us = 5'000;
 
 // Scans that come less often than this (us) may have times in nanoseconds.
 constexpr std::int64_t kLongPeriod_us = 100'000'000;
