@@ -1,7 +1,7 @@
 // Writes a line for each message that tells how the services fare, as it comes, until it is ended:
 //   TIME_MS LOCALISATION STATE UTIME MAP_ID CONFIDENCE OVERLAP ELAPSED_US (OVERLAP: of the first
-//   mode) TIME_MS KEYFRAME INDEX MAP_ID TIME_MS MAP_UPDATE VERSION MAP_ID TIME_MS HEALTH SERVICE
-//   PID STATE COUNTER=N... MESSAGE
+//   mode) TIME_MS KEYFRAME INDEX MAP_ID TIME_MS MAP_UPDATE VERSION MAP_ID ANSWERS TIME_MS HEALTH
+//   SERVICE PID STATE COUNTER=N... MESSAGE
 // TIME_MS: of the wall clock, on arrival. Usage: bus_watch [SECONDS]: ends by itself after that.
 #include <algorithm>
 #include <array>
@@ -38,7 +38,7 @@ void on_keyframe(const lcm::ReceiveBuffer* buffer, const std::string& channel,
 
 void on_map_update(const lcm::ReceiveBuffer* buffer, const std::string& channel,
                    const voxlist::map_update_t* m, void*) {
-  line(buffer, channel) << m->version << ' ' << m->map_id << std::endl;
+  line(buffer, channel) << m->version << ' ' << m->map_id << ' ' << m->answers << std::endl;
 }
 
 void on_health(const lcm::ReceiveBuffer* buffer, const std::string& channel,

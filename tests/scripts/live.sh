@@ -47,15 +47,17 @@ start_chain() {
   for name in localiser mapper octomap_export obstacle_detector; do
     start "$name" "$BIN/$name" --config "$work/robot.toml"
   done
-  within 20 heard MAP_UPDATE && within 20 heard "HEALTH obstacle_detector" &&
+  within 20 has_answered && within 20 heard "HEALTH obstacle_detector" &&
     within 20 heard "HEALTH octomap_export"
 }
 end_chain() { end_well localiser mapper octomap_export obstacle_detector; }
 
 # What bus_watch has heard (a pattern that matches from after the time): whether; how often; the time in
 # ms of the first one since a time.
+has_answered() { heard "MAP_UPDATE [0-9]+ [0-9]+ [1-9]"; }
 heard() { grep -Eq -- "^[0-9]+ $1" "$work/watch.log"; }
-times_heard() { grep -Ec -- "^[0-9]+ $1" "$work/watch.log" || true; }
+times_has_answered() { heard "MAP_UPDATE [0-9]+ [0-9]+ [1-9]"; }
+heard() { grep -Ec -- "^[0-9]+ $1" "$work/watch.log" || true; }
 heard_times() { (($(times_heard "$2") >= $1)); }
 first_heard_ms() { awk -v since="$1" -v what="^[0-9]+ $2" '$1 >= since && $0 ~ what { print $1; exit }' "$work/watch.log"; }
 heard_since() { [[ -n $(first_heard_ms "$1" "$2") ]]; }

@@ -38,6 +38,7 @@ bool MapperWord::take(const map_update_t& update) {
     take_rumour(update);
   const bool is_ours = word_ && word_->map_id == update.map_id;
   if (word_ && !is_ours) health_.count("MAP_UPDATE/other_map");
+  if (update.base_version == bus::kWholeMap) return is_ours && update.version == answered_version_;
   return is_ours && update.version <= word_->version;
 }
 
@@ -52,7 +53,7 @@ bool MapperWord::refuse(const map_update_t& update) {
 
 void MapperWord::take_answer(const Word& said) {
   const bool is_ours = !word_ || word_->map_id == said.map_id;
-  if (!is_asking_) {
+  if (!is_open_) {
     if (!is_ours) note_two_mappers();
     return;
   }
@@ -81,7 +82,8 @@ void MapperWord::take_rumour(const map_update_t& update) {
 
 void MapperWord::settle(const Word& said) {
   word_ = said;
-  is_asking_ = is_repeated_ = has_heard_of_another_ = false;
+  answered_version_ = said.version;
+  is_asking_ = is_open_ = has_heard_of_another_ = false;
   rival_.reset();
   unanswered_since_us_.reset();
 }
@@ -111,7 +113,7 @@ std::optional<std::int64_t> MapperWord::due(std::int64_t now_us) {
   if (!is_asking_) return std::nullopt;
   if (last_asked_us_ && now_us - *last_asked_us_ < kAskPeriod_us) return std::nullopt;
   last_asked_us_ = now_us;
-  if (!std::exchange(is_repeated_, true)) question_us_ = now_us;
+  if (!std::exchange(is_open_, true)) question_us_ = now_us;
   if (!unanswered_since_us_) unanswered_since_us_ = now_us;
   return question_us_;
 }

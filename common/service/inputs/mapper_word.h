@@ -26,7 +26,8 @@ class MapperWord {
   explicit MapperWord(bus::Health& health);
 
   /// Looks at an update before anything else is done with it. False: leave it out. It makes no
-  /// sense, or is not of the mapper's map, or of a version that the mapper is not known to have.
+  /// sense, or is not of the mapper's map, or of a version that the mapper is not known to have, or
+  /// a whole map of another version than the last answer's.
   bool take(const map_update_t& update);
 
   /// Asks again.
@@ -51,9 +52,10 @@ class MapperWord {
   bus::Health& health_;
   ChannelCheck check_;
   std::optional<Word> word_;
+  std::int64_t answered_version_ = 0;
   bool is_asking_ = true;
   std::int64_t question_us_ = 0;  // utime of the last request, and of what answers it
-  bool is_repeated_ = false;      // the request has been sent, and goes out again as it is
+  bool is_open_ = false;          // the request has been sent, and goes out again as it is
   std::optional<std::int64_t> last_asked_us_, unanswered_since_us_;
   // What another mapper has answered, while the one that is believed may still object.
   std::optional<Word> rival_;

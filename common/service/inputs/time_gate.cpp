@@ -21,6 +21,7 @@ TimeGate::Verdict TimeGate::judge(std::int64_t utime_us) {
   if (utime_us < 0 || utime_us >= kMaxUtime_us) return Verdict::kNotMicroseconds;
   if (!newest_us_ || follows(*newest_us_, utime_us)) {
     newest_us_ = std::max(newest_us_.value_or(utime_us), utime_us);
+    other_us_.reset();
     return Verdict::kFits;
   }
   if (utime_us == *newest_us_) return Verdict::kRepeated;

@@ -215,6 +215,32 @@ TEST_F(Follower, LeavesOutAForgedEmptyMap) {
   expect_the_same();
 }
 
+TEST_F(Follower, LeavesOutForgedMapsWhileItWaitsForTheRealOne) {
+  mappers = {StandInMapper(whole(kOther, 30))};
+  hear(mappers[0].word());
+  while (follower.map_id() == kMine) {
+    const auto request = follower.tick(now_us += kSecond_us / 50);
+    if (request) hear(mappers[0].word(request->utime));
+  }
+  for (const std::int64_t version : {0, 25, 29, 31}) hear(bus::split_map(whole(kOther, version)));
+  EXPECT_FALSE(follower.held());
+  run(1.0);
+  EXPECT_EQ(version(), 30);
+}
+
+// The second mapper's answer comes late, when another question has not been asked yet.
+TEST_F(Follower, ALateAnswerOfAnotherMapperIsNoAnswer) {
+  const StandInMapper other(whole(kOther, 3));
+  follower.doubt();
+  const auto request = follower.tick(now_us);
+  ASSERT_TRUE(request);
+  hear(mappers[0].answer(*request));
+  hear(other.word());
+  hear(other.word(request->utime));
+  for (int i = 0; i < 24; ++i) follower.tick(now_us += kSecond_us / 50);
+  EXPECT_EQ(follower.map_id(), kMine);
+}
+
 TEST_F(Follower, GoesBackWithTheMapperAlone) {
   mappers[0].map() = whole(kMine, 3);
   hear(mappers[0].word());
@@ -259,7 +285,7 @@ TEST(MapFollower, EndsWithTheMappersMapWhateverTheLineLoses) {
       if (cloud < 250 && line.version() == mapper.map().version) {
         bus::MapChange next = increment(kMine, mapper.map().version + 1);
         for (std::int32_t i = 0; i < 1000; ++i) {
-          next.blocks.occupied.push_back(block(static_cast<std::int32_t>(random() % 3000), cloud));
+          next.blocks.occupied.push_back(block(static_cast<std::int32_t>(random() % 3000) + 1, cloud));
           truth[next.blocks.occupied.back().x] = cloud;
         }
         truth[0] = next.version;

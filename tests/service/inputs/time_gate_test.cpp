@@ -51,6 +51,15 @@ TEST(TimeGate, OneTimeFarAheadCostsItselfAlone) {
   EXPECT_EQ(gate.judge(kNow_us + kSecond_us), Verdict::kFits);
 }
 
+TEST(TimeGate, LeavesOutARecordingThatIsPlayedBesideTheRobot) {
+  TimeGate gate;
+  gate.judge(kNow_us);
+  for (int i = 1; i < 20; ++i) {
+    EXPECT_EQ(gate.judge(kNow_us - (1000 - i) * kSecond_us), Verdict::kBackwards);
+    EXPECT_EQ(gate.judge(kNow_us + i * kSecond_us), Verdict::kFits);
+  }
+}
+
 TEST(TimeGate, OneTimeAheadThatIsBelievedCostsTwoMore) {
   TimeGate gate;
   gate.judge(kNow_us);
