@@ -42,10 +42,6 @@ FileLock lock_folder(const fs::path& folder) try {
                                           error.what()));
 }
 
-void refuse_folder_in_use(const fs::path& folder) {
-  if (is_locked(folder / kMapLock)) refuse(folder);
-}
-
 MapStore::MapStore(const fs::path& folder, std::int64_t new_map_id, const Take& take)
     : folder_(made(folder)), lock_(lock_folder(folder_)) {
   io::remove_stale_temporaries(folder_);

@@ -21,11 +21,8 @@ inline constexpr const char* kKeyframeFile = "keyframes.voxlist";
 /// Name of the file in a map folder whose lock the mapper holds that adds to the map.
 inline constexpr const char* kMapLock = "mapper.lock";
 
-/// Throws FileError, which names the process, when a mapper works in the folder now.
-void refuse_folder_in_use(const std::filesystem::path& folder);
-
-/// Takes the lock of a map folder, as the mapper does. Throws FileError when somebody else has it,
-/// or it cannot be written.
+/// Takes the lock of a map folder, as the mapper does. Throws FileError when another process has
+/// it, which it names, or when it cannot be written.
 FileLock lock_folder(const std::filesystem::path& folder);
 
 /// The keyframes of a file, by their index: on the disk, one at a time in memory. They can be read

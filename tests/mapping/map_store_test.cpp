@@ -141,9 +141,9 @@ TEST(MapStore, BelongsToOneMapper) {
       EXPECT_NE(std::string(error.what()).find("process " + std::to_string(getpid())),
                 std::string::npos);
     }
-    EXPECT_THROW(refuse_folder_in_use(folder.path()), io::FileError);
+    EXPECT_THROW(lock_folder(folder.path()), io::FileError);
   }
-  EXPECT_NO_THROW(refuse_folder_in_use(folder.path()));
+  EXPECT_NO_THROW(lock_folder(folder.path()));
   EXPECT_NO_THROW(MapStore(folder.path(), 7, ignore));
 }
 

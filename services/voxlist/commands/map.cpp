@@ -118,8 +118,8 @@ int map(const MapOptions& options, Console& console) {
                   {settings.mapper.min_range_m, settings.mapper.max_range_m},
                   options.making.prefix.of(options.making.config));
   if (!options.force) refuse_robots_map(options.folder);
-  mapping::refuse_folder_in_use(options.folder);
   MapFiles files(options.folder);
+  const FileLock lock = mapping::lock_folder(options.folder);
   mapping::KeyframeSpool keyframes(options.folder);
   MapRun run(settings.localiser, mapping::MapBuilder(settings.mapper),
              [&](const mapping::Keyframe& keyframe) { keyframes.add(keyframe); });
