@@ -65,6 +65,9 @@ inline constexpr Channel<map_update_t> kMapUpdate{"MAP_UPDATE"};
 /// From mapper to octomap_export, which needs the rays that voxels no longer have.
 inline constexpr Channel<keyframe_t> kKeyframe{"KEYFRAME"};
 
+/// Keyframes that one MAP_REQUEST brings at most: of 100,000 points they take 4 s on their way.
+inline constexpr int kKeyframesAtOnce = 32;
+
 /// Asks mapper for a whole map, for keyframes that were missed, or to save. Rate: when needed.
 /// From localiser, octomap_export, scripts to mapper.
 inline constexpr Channel<map_request_t> kMapRequest{"MAP_REQUEST"};

@@ -17,6 +17,7 @@
 #include "voxlist/service/instance_lock.h"
 #include "voxlist/service/run_folder.h"
 #include "voxlist/service/state_log.h"
+#include "voxlist/service/stop.h"
 #include "voxlist/system/file_lock.h"
 
 namespace voxlist::service {
@@ -25,20 +26,6 @@ namespace {
 // Longest wait for a message before tick() is called: a service is at most this late with what is
 // due by time, and an idle one wakes 50 times a second.
 constexpr std::chrono::milliseconds kTick(20);
-
-volatile std::sig_atomic_t g_stop_requested = 0;
-
-void request_stop(int) { g_stop_requested = 1; }
-
-void watch_signals() {
-  g_stop_requested = 0;
-  struct sigaction action = {};
-  action.sa_handler = request_stop;
-  sigaction(SIGTERM, &action, nullptr);
-  sigaction(SIGINT, &action, nullptr);
-  // A service outlives whoever reads its log.
-  std::signal(SIGPIPE, SIG_IGN);
-}
 
 void log_to_stderr(const std::string& name) {
   auto logger =
@@ -96,7 +83,7 @@ bool run_until_stopped(bus::Bus& bus, bus::Health& health, RunningService& servi
   StateLog states;
   std::string told_error;
   bool open = true;
-  while (open && !g_stop_requested) {
+  while (open && !stop_requested()) {
     open = bus.handle(kTick, service.wake_fd());
     const std::int64_t now_us = clock.now_us();
     service.tick(now_us);
@@ -105,6 +92,7 @@ bool run_until_stopped(bus::Bus& bus, bus::Health& health, RunningService& servi
     log_troubles(bus, drops, told_error, now_us);
     log_state(health, states, now_us);
   }
+  work_is_done();
   stop(bus, health, service, clock.now_us());
   return open;
 }
@@ -127,7 +115,8 @@ int run_service(int argc, char** argv, const ServiceInfo& info, const config::Se
   const auto exit_code = read_command_line(argc, argv, info, settings, check, options);
   if (exit_code) return *exit_code;
 
-  watch_signals();
+  stop_on_signals(info.ends_within_work);
+  std::signal(SIGPIPE, SIG_IGN);  // a service outlives whoever reads its log
   log_to_stderr(info.name);
   const FileLock lock = take_lock(info, options);
   bus::Bus bus(options);

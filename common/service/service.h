@@ -20,6 +20,8 @@ namespace voxlist::service {
 struct ServiceInfo {
   std::string name;
   std::string purpose;
+  /// It has nothing to save: a second after it was asked to stop it ends, whatever it does.
+  bool ends_within_work = false;
 };
 
 /// A service as the loop sees it.

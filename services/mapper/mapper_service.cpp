@@ -134,7 +134,7 @@ void MapperService::add(Cloud cloud, const Pose2& pose) {
   keyframes_.add(builder_.add({to_pose3(pose), std::move(cloud)}));
   path_.mark_keyframe();
   health_.count("keyframes");
-  send_keyframes(keyframes_.size() - 1);
+  send_keyframes(keyframes_.size() - 1, 1);
 }
 
 void MapperService::take_request(const map_request_t& message) {
@@ -205,8 +205,8 @@ bool MapperService::has_use_for_map(const map_request_t& message) const {
   return message.map_id == 0 || (message.map_id == map_id_ && message.version != version());
 }
 
-void MapperService::send_keyframes(std::size_t first) {
-  for (std::size_t i = first; i < keyframes_.size(); ++i) {
+void MapperService::send_keyframes(std::size_t first, std::size_t at_most) {
+  for (std::size_t i = first; i < keyframes_.size() && at_most > 0; ++i, --at_most) {
     // The listener asks again for what did not fit.
     if (!sender_.push(keyframes_.bytes(i), [this, i] { send_keyframe(i); }))
       return health_.count("KEYFRAME/queue_full");
@@ -222,7 +222,7 @@ void MapperService::send_keyframe(std::size_t index) {
 
 void MapperService::resend_keyframes(std::size_t first) {
   if (resends_queued_ > 0) return health_.count("MAP_REQUEST/already_answering");
-  send_keyframes(first);
+  send_keyframes(first, bus::kKeyframesAtOnce);
   if (sender_.push(0, [this] { --resends_queued_; })) ++resends_queued_;
 }
 

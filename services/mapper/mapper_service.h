@@ -79,7 +79,7 @@ class MapperService {
   void send_word(std::int64_t answers);
   bus::MapChange nothing_new() const;
   bool has_use_for_map(const map_request_t& message) const;
-  void send_keyframes(std::size_t first);
+  void send_keyframes(std::size_t first, std::size_t at_most);
   void resend_keyframes(std::size_t first);
   void send_keyframe(std::size_t index);
   void save();

@@ -5,5 +5,5 @@ int main(int argc, char** argv) {
   using namespace voxlist::services;
   return voxlist::service::run_service<ObstacleDetectorService, voxlist::planning::ObstacleConfig>(
       argc, argv,
-      {"obstacle_detector", "Tells the nearest obstacle in each bearing round the robot."});
+      {"obstacle_detector", "Tells the nearest obstacle in each bearing round the robot.", true});
 }

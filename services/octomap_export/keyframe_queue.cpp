@@ -26,6 +26,12 @@ KeyframeQueue::Verdict KeyframeQueue::add(bus::PosedCloud keyframe) {
   return Verdict::kDroppedOne;
 }
 
+void KeyframeQueue::know_of(std::int64_t map_id, std::int32_t keyframes) {
+  if (map_id_ != map_id) *this = {};
+  map_id_ = map_id;
+  last_known_ = std::max(last_known_, keyframes - 1);
+}
+
 std::optional<bus::PosedCloud> KeyframeQueue::next() {
   auto node = waiting_.extract(next_index());
   if (!node) return std::nullopt;

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "voxlist/bus/channels.h"
 #include "voxlist/bus/convert.h"
 
 namespace voxlist::services {
@@ -14,9 +15,10 @@ namespace voxlist::services {
 /// bounded memory.
 class KeyframeQueue {
  public:
-  /// Most keyframes that wait: about 100 MB of large clouds. When one more comes, the one that is
-  /// needed last is dropped, and missed later.
-  static constexpr std::size_t kCapacity = 64;
+  /// Most keyframes that wait: an answer of the mapper's, and as many that come meanwhile; about
+  /// 100 MB of large clouds. When one more comes, the one that is needed last is dropped, and
+  /// missed later.
+  static constexpr std::size_t kCapacity = 2 * bus::kKeyframesAtOnce;
 
   /// What became of a keyframe.
   enum class Verdict { kTaken, kRepeated, kDroppedOne };
@@ -24,6 +26,9 @@ class KeyframeQueue {
   /// Takes a keyframe. One of another map, or another one than was handed out at its index (the
   /// mapper lost its newest and went on), starts all over from index 0.
   Verdict add(bus::PosedCloud keyframe);
+
+  /// The mapper's map has so many keyframes. Where it is another one than before, all starts over.
+  void know_of(std::int64_t map_id, std::int32_t keyframes);
 
   /// The next keyframe in order, if it is there. The first of each map has index 0.
   std::optional<bus::PosedCloud> next();
@@ -35,8 +40,10 @@ class KeyframeQueue {
   /// All that is known of was handed out.
   bool is_done() const;
 
- private:
+  /// Of the keyframe that next() hands out next.
   std::int32_t next_index() const { return static_cast<std::int32_t>(handed_out_us_.size()); }
+
+ private:
   bool is_of_another_map(const bus::PosedCloud& keyframe) const;
 
   std::optional<std::int64_t> map_id_;

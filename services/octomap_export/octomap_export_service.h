@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -46,18 +47,22 @@ class OctomapExportService {
   void stop();
 
  private:
-  // Published and saved when something changed, but not more often than its period.
+  // Published and saved when something changed, but not more often than its period, and not for
+  // more than a tenth of the time.
   struct Pending {
     bool changed = false;
     std::optional<std::int64_t> last_us;
+    std::int64_t took_us = 0;
 
     bool due(std::int64_t now_us, std::int64_t period_us) const {
-      return changed && (!last_us || now_us - *last_us >= period_us);
+      return changed && (!last_us || now_us - *last_us >= std::max(period_us, 10 * took_us));
     }
   };
 
   void take(const keyframe_t& message);
+  void take_word(const map_update_t& message);
   void insert(const bus::PosedCloud& keyframe);
+  std::optional<std::int32_t> missing() const;
   void ask(std::int32_t first, std::int64_t now_us);
   void publish(std::int64_t now_us);
   void save(std::int64_t now_us);
@@ -75,6 +80,9 @@ class OctomapExportService {
   std::int64_t keyframes_ = 0;
   Pending publishing_, saving_;
   std::optional<std::int64_t> quiet_since_us_;  // last keyframe inserted, or asked for
+  std::int64_t request_us_ = 0;                 // utime of the last request
+  bool has_word_ = false;                       // the mapper's on it
+  std::int32_t asked_up_to_ = -1;               // index after the last one that it brings
   std::string save_error_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <fstream>
@@ -216,6 +217,25 @@ TEST_F(RunService, RefusesUnfitSettingsAtTheStartInTheSameWords) {
 TEST_F(RunService, TellsItsVersion) {
   EXPECT_EQ(run<CounterService>({"--version"}), 0);
   EXPECT_EQ(out_, version() + "\n");
+}
+
+// Works on for ever in its first tick, after it was asked to stop.
+class NeverDone : public CounterService {
+ public:
+  using CounterService::CounterService;
+  [[noreturn]] void tick(std::int64_t) {
+    std::raise(SIGTERM);
+    for (;;) pause();
+  }
+};
+
+TEST_F(RunService, EndsWithinItsWorkWhenThereIsNothingToSave) {
+  std::string name = "mapper", url = "memq://", option = "--lcm-url";
+  char* argv[] = {name.data(), option.data(), url.data()};
+  const auto run_it = [&] {
+    run_service<NeverDone, CounterConfig>(3, argv, {"mapper", "Is never done.", true});
+  };
+  EXPECT_EXIT(run_it(), testing::ExitedWithCode(0), "stopped within its work");
 }
 
 }  // namespace

@@ -97,5 +97,24 @@ TEST(KeyframeQueue, StartsOverWhenTheMapperLostItsNewestAndWentOn) {
   EXPECT_EQ(queue.next()->cloud.utime_us, other.cloud.utime_us);
 }
 
+TEST(KeyframeQueue, MissesWhatTheMapperIsSaidToHave) {
+  KeyframeQueue queue;
+  queue.add(keyframe(0));
+  const std::int64_t map_id = keyframe(0).map_id;
+  queue.next();
+  EXPECT_TRUE(queue.is_done());
+  queue.know_of(map_id, 3);
+  EXPECT_EQ(queue.missing(), 1);
+  EXPECT_FALSE(queue.is_done());
+  queue.know_of(map_id, 2);
+  queue.add(keyframe(1));
+  queue.next();
+  EXPECT_EQ(queue.missing(), 2) << "what it knew it knows";
+  queue.know_of(map_id + 1, 5);
+  EXPECT_EQ(queue.missing(), 0) << "of another map";
+  queue.know_of(map_id + 2, 0);
+  EXPECT_EQ(queue.missing(), std::nullopt) << "an empty one";
+}
+
 }  // namespace
 }  // namespace voxlist::services

@@ -161,6 +161,18 @@ TEST(Mapper, SendsKeyframesFromTheOneThatWasMissed) {
   EXPECT_EQ(scene.keyframes.size(), 6u);
 }
 
+TEST(Mapper, SendsSomeKeyframesForOneRequestAtMost) {
+  const TemporaryFolder folder;
+  Scene scene(folder.string());
+  scene.request(map_request_t::WANT_MAP);
+  const int many = bus::kKeyframesAtOnce + 5;
+  for (int i = 0; i < many; ++i) scene.drive(i + 1, {double(i), 0.0, 0.0});
+  scene.keyframes.clear();
+  scene.request(map_request_t::WANT_KEYFRAMES, 2);
+  ASSERT_EQ(scene.keyframes.size(), std::size_t(bus::kKeyframesAtOnce));
+  EXPECT_EQ(scene.keyframes.back().index, bus::kKeyframesAtOnce + 1);
+}
+
 TEST(Mapper, WritesTheMapsViewsOnCommandAndOnStop) {
   const TemporaryFolder folder;
   Scene scene(folder.string());

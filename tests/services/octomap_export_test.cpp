@@ -2,8 +2,11 @@
 #include <octomap/OcTree.h>
 #include <sys/resource.h>
 
+#include <algorithm>
+#include <cmath>
 #include <csignal>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <memory>
 #include <optional>
@@ -13,6 +16,7 @@
 #include <voxlist/keyframe_t.hpp>
 #include <voxlist/map_octree_t.hpp>
 #include <voxlist/map_request_t.hpp>
+#include <voxlist/map_update_t.hpp>
 
 #include "services/octomap_export/octomap_export_service.h"
 #include "tests/temporary_folder.h"
@@ -87,7 +91,10 @@ class OctomapExport : public testing::Test {
  protected:
   OctomapExport() {
     bus_.subscribe(bus::kOctomap, [this](const map_octree_t& m) { octomaps_.push_back(m); });
-    bus_.subscribe(bus::kMapRequest, [this](const map_request_t& m) { requests_.push_back(m); });
+    bus_.subscribe(bus::kMapRequest, [this](const map_request_t& m) {
+      requests_.push_back(m);
+      if (answer_) answer_(m);
+    });
   }
 
   void start() { service_.emplace(bus_, health_, config_); }
@@ -128,6 +135,7 @@ class OctomapExport : public testing::Test {
   std::int64_t now_us_ = kSecond_us, health_us_ = 0;
   std::vector<map_octree_t> octomaps_;
   std::vector<map_request_t> requests_;
+  std::function<void(const map_request_t&)> answer_;  // of a mapper, where there is one
 };
 
 TEST_F(OctomapExport, PublishesTheKeyframesAsAnOctomapInTheMapFrame) {
@@ -220,6 +228,71 @@ TEST_F(OctomapExport, LetsNothingPileUpAndHealsWhatItDropped) {
   run(2.5);
   EXPECT_EQ(octomaps_.back().view_id, kMany);
   EXPECT_TRUE(read_back(octomaps_.back()).has(kMany - 1));
+}
+
+// A mapper with many keyframes: each is sent once, for one request in 32 of them.
+TEST_F(OctomapExport, CatchesUpWithEachKeyframeSentOnce) {
+  constexpr std::int32_t kAll = 900;
+  std::int32_t sent = 0;
+  answer_ = [&](const map_request_t& request) {
+    map_update_t word{};
+    word.map_id = 7;
+    word.version = word.base_version = kAll;
+    word.answers = request.utime;
+    bus_.publish(bus::kMapUpdate, word);
+    const std::int32_t end = std::min(request.first + bus::kKeyframesAtOnce, kAll);
+    for (std::int32_t i = request.first; i < end; ++i, ++sent)
+      bus_.publish(bus::kKeyframe, keyframe(i));
+  };
+  start();
+  run(25.0);
+  EXPECT_EQ(sent, kAll);
+  EXPECT_EQ(requests_.size(), 29u);
+  EXPECT_EQ(octomaps_.back().view_id, kAll);
+  EXPECT_EQ(health().message, "");
+}
+
+TEST_F(OctomapExport, AsksOnWhereTheMappersWordWasLost) {
+  start();
+  run(0.1);
+  for (std::int32_t i = 0; i < bus::kKeyframesAtOnce; ++i) publish({i});
+  run(1.5);
+  EXPECT_EQ(requests_.back().first, bus::kKeyframesAtOnce);
+}
+
+TEST_F(OctomapExport, BelievesOnlyTheWordOnItsOwnRequest) {
+  start();
+  run(0.1);
+  publish({0});
+  run(1.5);
+  ASSERT_EQ(requests_.size(), 1u);
+  map_update_t word{};
+  word.map_id = 7;
+  word.version = word.base_version = 5;
+  bus_.publish(bus::kMapUpdate, word);
+  run(1.5);
+  EXPECT_EQ(requests_.size(), 1u);
+  word.answers = requests_[0].utime;
+  bus_.publish(bus::kMapUpdate, word);
+  run(0.5);
+  ASSERT_EQ(requests_.size(), 2u);
+  EXPECT_EQ(requests_[1].first, 1);
+}
+
+TEST_F(OctomapExport, SaysThatItShortensRays) {
+  start();
+  bus::PosedCloud far;
+  far.map_id = 7;
+  for (int i = 0; i < 3000; ++i) {
+    const float a = 0.1F * float(i), b = 0.001F * float(i - 1500);
+    far.cloud.points.emplace_back(99.F * std::cos(a) * std::cos(b),
+                                  99.F * std::sin(a) * std::cos(b), 99.F * std::sin(b) * 0.9F);
+  }
+  far.cloud.utime_us = 700;
+  bus_.publish(bus::kKeyframe, bus::to_message(far));
+  run(1.5);
+  EXPECT_EQ(health().state, health_t::STATE_WARNING);
+  EXPECT_NE(health().message.find("free only"), std::string::npos) << health().message;
 }
 
 TEST_F(OctomapExport, InsertsOneKeyframeATick) {
