@@ -61,6 +61,15 @@ TEST_F(Evaluate, ReadsTheFormsOfOthersOnBothSides) {
   }
 }
 
+TEST_F(Evaluate, TellsWhatIsOddWithATable) {
+  test::write_text(work_ / "odd.csv", "t,x,y,yaw\n0,0,0,0\n1,nan,nan,0\n2,2,0,0\n3,3,0,90\n");
+  const test::DeskRun run = test::run({"evaluate", work_ / "trajectory.tum", work_ / "odd.csv"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("3 of 3 poses matched"));
+  EXPECT_THAT(run.err, HasSubstr("odd.csv: 1 rows hold no pose"));
+  EXPECT_THAT(run.err, HasSubstr("odd.csv: yaw goes up to 90"));
+}
+
 TEST_F(Evaluate, SaysWhenNothingBelongsTogether) {
   test::write_text(work_ / "poses.csv", "t,x,y,yaw,scan\n1000,0,0,0,77\n1001,1,0,0,78\n");
   const test::DeskRun run = test::run({"evaluate", work_ / "trajectory.tum", work_ / "poses.csv"});

@@ -187,6 +187,13 @@ PoseTable read_poses(const std::filesystem::path& path) {
   return read_pose_csv(path);
 }
 
+std::vector<std::string> notes_on(const PoseTable& table) {
+  std::vector<std::string> notes = table.notes;
+  if (table.unknown > 0)
+    notes.push_back(fmt::format("{} rows hold no pose (nan or inf)", table.unknown));
+  return notes;
+}
+
 PoseTable read_pose_csv(const std::filesystem::path& path) {
   const CsvTable csv(path);
   const Columns columns(csv);

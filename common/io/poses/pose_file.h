@@ -50,6 +50,9 @@ struct PoseTable {
 /// Throws FileError as read_pose_csv does.
 PoseTable read_poses(const std::filesystem::path& path);
 
+/// What a person should know of a table: its notes, and how many rows are unknown poses.
+std::vector<std::string> notes_on(const PoseTable& table);
+
 /// Reads a table of poses by its header; columns may be in any order, others are ignored.
 ///
 /// | meaning | names (any case; units as suffix or not: x, x_m, "X [m]") |

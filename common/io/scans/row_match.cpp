@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <iterator>
 #include <map>
 #include <set>
 
@@ -159,9 +160,7 @@ void tell_rows(const PoseTable& table, RowMatch& match) {
                                        : std::to_string(table.rows[row].scan));
   }
   if (!unused.empty()) match.notes.push_back(sentence("row ", unused, "scan"));
-  match.notes.insert(match.notes.end(), table.notes.begin(), table.notes.end());
-  if (table.unknown > 0)
-    match.notes.push_back(fmt::format("{} rows hold no pose (nan or inf)", table.unknown));
+  std::ranges::copy(notes_on(table), std::back_inserter(match.notes));
 }
 
 void tell_scans(const Files& files, RowMatch& match) {

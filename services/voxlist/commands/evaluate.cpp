@@ -61,9 +61,16 @@ void tell(const evaluation::TrajectoryErrors& errors, Console& console) {
   console.say(line("  over 1 m and more (deg/m)", errors.per_metre_rad, kDegreesPerRadian));
 }
 
+io::PoseTable read(const std::filesystem::path& path, Console& console) {
+  io::PoseTable table = io::read_poses(path);
+  for (const std::string& note : io::notes_on(table)) console.warn(path.string() + ": " + note);
+  return table;
+}
+
 int run(const EvaluateOptions& options, Console& console) {
-  const auto errors = evaluation::evaluate(io::trajectory_of(io::read_poses(options.trajectory)),
-                                           io::read_poses(options.truth));
+  const io::PoseTable trajectory = read(options.trajectory, console);
+  const io::PoseTable truth = read(options.truth, console);
+  const auto errors = evaluation::evaluate(io::trajectory_of(trajectory), truth);
   if (!errors) {
     throw io::FileError(
         options.truth, fmt::format("has no pose for any of {}, check that both are of the same run",

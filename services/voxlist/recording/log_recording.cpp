@@ -88,6 +88,7 @@ class LogRecording : public Recording {
   }
 
   RowOfScan match(const io::PoseTable& poses) const override {
+    for (const std::string& note : io::notes_on(poses)) omissions_.remark("poses: " + note);
     return poses.has_times ? match_times(poses) : match_numbers(poses);
   }
 
