@@ -129,6 +129,9 @@ int run_service(int argc, char** argv, const ServiceInfo& info, const config::Se
     throw std::runtime_error(fmt::format("the connection to {} broke; start again", options.url));
   spdlog::info("stopped");
   return 0;
+} catch (const Stopped&) {
+  spdlog::info("stopped before it had started");
+  return 0;
 } catch (const std::exception& error) {
   std::cerr << info.name << ": " << error.what() << '\n';
   return 1;

@@ -11,6 +11,10 @@ void stop_on_signals(bool within_work);
 /// second, and gives up.
 bool stop_requested();
 
+/// What a service that is still being made throws once it was asked to stop: the process ends as
+/// wanted.
+struct Stopped {};
+
 /// The work has come to its end.
 void work_is_done();
 

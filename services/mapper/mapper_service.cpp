@@ -21,6 +21,7 @@
 #include "voxlist/bus/maps/map_faults.h"
 #include "voxlist/io/files/file.h"
 #include "voxlist/mapping/map_views.h"
+#include "voxlist/service/stop.h"
 #include "voxlist/system/state_folder.h"
 
 namespace voxlist::services {
@@ -83,7 +84,9 @@ MapperService::MapperService(bus::Bus& bus, bus::Health& health, const MapperSer
   bus_.subscribe(bus::kHealth, [this](const health_t& message) { take_health(message); });
 }
 
+// A large map takes a while to read.
 void MapperService::restore(mapping::Keyframe keyframe) {
+  if (service::stop_requested()) throw service::Stopped();
   path_.restore({keyframe.cloud.utime_us, keyframe.T_map_base});
   builder_.add(std::move(keyframe));
 }

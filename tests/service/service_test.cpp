@@ -13,6 +13,7 @@
 #include "voxlist/bus/health.h"
 #include "voxlist/pose_t.hpp"
 #include "voxlist/service/instance_lock.h"
+#include "voxlist/service/stop.h"
 #include "voxlist/system/file_lock.h"
 #include "voxlist/system/version.h"
 
@@ -217,6 +218,18 @@ TEST_F(RunService, RefusesUnfitSettingsAtTheStartInTheSameWords) {
 TEST_F(RunService, TellsItsVersion) {
   EXPECT_EQ(run<CounterService>({"--version"}), 0);
   EXPECT_EQ(out_, version() + "\n");
+}
+
+class StoppedAtItsStart : public CounterService {
+ public:
+  StoppedAtItsStart(bus::Bus& bus, bus::Health& health, const CounterConfig& config)
+      : CounterService(bus, health, config) {
+    throw Stopped();
+  }
+};
+
+TEST_F(RunService, EndsAsWantedWhenItIsStoppedWhileItIsMade) {
+  EXPECT_EQ(run<StoppedAtItsStart>({"--lcm-url", "memq://"}), 0);
 }
 
 // Works on for ever in its first tick, after it was asked to stop.

@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <csignal>
 #include <optional>
 #include <vector>
 #include <voxlist/health_t.hpp>
@@ -20,6 +21,7 @@
 #include "voxlist/bus/health.h"
 #include "voxlist/bus/maps/map_convert.h"
 #include "voxlist/io/files/file.h"
+#include "voxlist/service/stop.h"
 
 namespace voxlist::services {
 namespace {
@@ -238,6 +240,18 @@ void make_map(const std::string& folder) {
   scene.request(map_request_t::WANT_MAP);
   scene.drive(1, {});
   scene.drive(2, {1.0, 0.0, 0.0});
+}
+
+TEST(Mapper, GivesUpReadingItsMapWhenItIsAskedToStop) {
+  const TemporaryFolder folder;
+  make_map(folder.string());
+  service::stop_on_signals(false);
+  std::raise(SIGTERM);
+  EXPECT_THROW(Scene(folder.string()), service::Stopped);
+  service::stop_on_signals(false);
+  Scene scene(folder.string());
+  scene.request(map_request_t::WANT_MAP);
+  EXPECT_EQ(scene.assembler.held()->version, 2);
 }
 
 TEST(Mapper, KeepsADamagedFileAsideAndGoesOnWithTheWholeKeyframes) {

@@ -23,6 +23,7 @@
 #include "voxlist/bus/bus.h"
 #include "voxlist/bus/convert.h"
 #include "voxlist/bus/health.h"
+#include "voxlist/service/stop.h"
 
 namespace voxlist::services {
 namespace {
@@ -293,6 +294,18 @@ TEST_F(OctomapExport, SaysThatItShortensRays) {
   run(1.5);
   EXPECT_EQ(health().state, health_t::STATE_WARNING);
   EXPECT_NE(health().message.find("free only"), std::string::npos) << health().message;
+}
+
+TEST_F(OctomapExport, GivesUpACloudWhenItIsAskedToStop) {
+  start_with_files();
+  service::stop_on_signals(false);
+  std::raise(SIGTERM);
+  publish({0});
+  service_->tick(now_us_);
+  service::stop_on_signals(false);
+  service_->stop();
+  EXPECT_TRUE(std::filesystem::exists(file("map.bt")));
+  EXPECT_FALSE(read_back(file("map.bt")).has(0));
 }
 
 TEST_F(OctomapExport, InsertsOneKeyframeATick) {
