@@ -1,6 +1,6 @@
 # What the tests share that run the real services: a private network, every process known by its name.
 # Sourced, never run.
-# shellcheck shell=bash disable=SC2034
+# shellcheck shell=bash disable=SC2034,SC2317
 declare -F check >/dev/null || source "$(dirname "${BASH_SOURCE[0]}")/lib.sh"
 
 private_network || skip "no private network namespaces on this machine"
