@@ -22,10 +22,6 @@ namespace {
 // Points of the first cloud that are farther away (m) do not stand in for the map.
 constexpr double kOriginRange_m = 100.0;
 
-// Clouds in a row that the first cloud cannot place, after which it was a bad one (a covered lens,
-// a robot that was carried away) and another one may be the origin of a map that is still empty.
-constexpr int kLostFromOrigin = 10;
-
 // Whether a map can be begun by the cloud: it puts something into it.
 bool can_be_origin(const Cloud& cloud) {
   OccupancyMap map;
@@ -201,13 +197,6 @@ matching::Localisation LocaliserService::locate_without_map(
   if (origin_ && map_.empty()) add_scan(*origin_, Pose3::Identity(), kOriginRange_m, map_);
   result = localiser_.localise(cloud, T_odom_base);
   if (!origin_ && result.tracking()) origin_ = cloud;
-  lost_from_origin_ = result.tracking() ? 0 : lost_from_origin_ + 1;
-  if (origin_ && lost_from_origin_ >= kLostFromOrigin) {
-    health_.count("origin_given_up");
-    origin_.reset();
-    map_ = {VoxelMap(map_.occupied.resolution_m()), VoxelMap(map_.passed.resolution_m())};
-    localiser_.forget();
-  }
   return result;
 }
 

@@ -84,9 +84,7 @@ class LocaliserService {
   matching::Localiser localiser_;
   service::MapFollower mapper_;
   std::optional<std::int64_t> map_id_;  // of the map that map_ is of
-  // The cloud that defined the origin of an empty map, and how many in a row it could not place.
-  std::optional<Cloud> origin_;
-  int lost_from_origin_ = 0;
+  std::optional<Cloud> origin_;         // the cloud that defined the origin of an empty map
   service::CloudInput cloud_input_;
   service::ChannelCheck odometry_check_;
   OdometryBuffer odometry_;

@@ -1,7 +1,8 @@
-// Drives a simulated robot past the live services, 20 times as fast as it would, but each cloud
+// Drives a simulated robot past the live services, a cloud every 50 ms (PERIOD_MS), but each cloud
 // only when the one before is answered (or the patience, 1500 ms, is over), and compares what the
-// localiser says with the truth. Usage: drive FIRST COUNT [PATIENCE_MS]: the tour's clouds FIRST ..
-// FIRST + COUNT - 1, numbered from 0. Writes a line for each answer, and a last one:
+// localiser says with the truth. Usage: drive FIRST COUNT [PATIENCE_MS [PERIOD_MS]]: the tour's
+// clouds FIRST .. FIRST + COUNT - 1, numbered from 0. Writes a line for each answer, and a last
+// one:
 //   CLOUD STATE MAP_ID VERSION ERROR_M DELAY_MS
 //   sum CLOUDS tracking N wrong N unanswered N delay_max_ms N
 // Usage: drive check FOLDER: compares a map folder's keyframes with the truth:
@@ -34,14 +35,16 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::int64_t kBegin_us = 1'700'000'000'000'000;
 constexpr double kWrong_m = 0.3, kWrong_rad = 0.1;
-constexpr std::chrono::milliseconds kPeriod{50};
 
-// A laser that sees all round: what is shown here is not how little a scan may be.
-constexpr simulation::SphereScanConfig kLaser{.rays = 6000};
+// A laser that sees all round, on a robot that takes its time: what is shown here is not how little
+// a scan may be. Two packets hold a cloud.
+constexpr simulation::SphereScanConfig kLaser{.rays = 5200};
 
 simulation::SimulationConfig tour() {
   simulation::SimulationConfig config;
   config.drive.wait_s = 1.5;
+  config.drive.speed_max_mps = 0.3;
+  config.drive.turn_rate_max_dps = 25.0;
   return config;
 }
 
@@ -56,8 +59,8 @@ bool is_wrong(const Pose2& pose, const Pose2& truth) {
 
 class Drive {
  public:
-  Drive(int first, int count, int patience_ms)
-      : first_(first), end_(first + count), patience_(patience_ms) {
+  Drive(int first, int count, int patience_ms, int period_ms)
+      : first_(first), end_(first + count), patience_(patience_ms), period_(period_ms) {
     bus_.subscribe(bus::kLocalisation, [this](const localisation_t& m) { take(m); });
     std::ifstream file(kFrames);
     Pose2 frame;
@@ -93,7 +96,7 @@ class Drive {
       bus_.publish(bus::kCloud, message);
       const auto now = [] { return Clock::now(); };
       is_answered_ = false;
-      while ((!is_answered_ && now() < asked_at_ + patience_) || now() < asked_at_ + kPeriod)
+      while ((!is_answered_ && now() < asked_at_ + patience_) || now() < asked_at_ + period_)
         bus_.handle(std::chrono::milliseconds(5));
       if (!is_answered_) ++unanswered_;
       if (!is_answered_) std::printf("%d unanswered\n", cloud_);
@@ -139,7 +142,7 @@ class Drive {
   simulation::SimulatedRun run_{tour()};
   const int first_, end_;
   int cloud_ = 0, tracking_ = 0, wrong_ = 0, unanswered_ = 0, delay_max_ms_ = 0;
-  const std::chrono::milliseconds patience_;
+  const std::chrono::milliseconds patience_, period_;
   std::int64_t asked_us_ = 0;
   bool is_answered_ = false;
   Clock::time_point asked_at_;
@@ -167,9 +170,12 @@ void check(const std::string& folder) {
 
 int main(int argc, char** argv) {
   if (argc < 3) return 2;
+  const auto number = [&](int i, int otherwise) {
+    return argc > i ? std::atoi(argv[i]) : otherwise;
+  };
   if (std::string(argv[1]) == "check")
     check(argv[2]);
   else
-    Drive(std::atoi(argv[1]), std::atoi(argv[2]), argc > 3 ? std::atoi(argv[3]) : 1500).run();
+    Drive(number(1, 0), number(2, 0), number(3, 1500), number(4, 50)).run();
   return 0;
 }

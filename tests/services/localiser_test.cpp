@@ -94,11 +94,11 @@ OccupancyMap map_of_room() {
   return map;
 }
 
-TEST(LocaliserService, AsksForAMapTwiceASecondAndClaimsNoPoseWithoutOne) {
+TEST(LocaliserService, AsksForAMapAgainAndAgainAndClaimsNoPoseWithoutOne) {
   Scene scene;
   scene.send_cloud(kStart_us);
   for (int i = 0; i <= 30; ++i) scene.run(kStart_us + i * 100'000);
-  EXPECT_EQ(scene.requests.size(), 7u);
+  EXPECT_EQ(scene.requests.size(), 11u) << "at most four times a second";
   ASSERT_EQ(scene.localisations.size(), 1u);
   EXPECT_EQ(scene.localisations[0].state, localisation_t::STATE_LOST);
   EXPECT_TRUE(scene.poses.empty());
@@ -220,7 +220,7 @@ TEST(LocaliserService, GoesOnInTheMappersMapWhenItsFirstWordWasLost) {
   EXPECT_NEAR(found.modes[0].pose[0], 0.3, 0.03);
 }
 
-TEST(LocaliserService, AFirstCloudThatOthersDoNotFitIsGivenUp) {
+TEST(LocaliserService, SetsNoSecondOriginWhereNothingFitsTheFirst) {
   Scene scene;
   scene.begin({}, kStart_us);
   Cloud lid;
@@ -232,9 +232,9 @@ TEST(LocaliserService, AFirstCloudThatOthersDoNotFitIsGivenUp) {
     scene.send_cloud(kStart_us + i * 1'000'000);
     scene.run(kStart_us + i * 1'000'000);
     scene.run(kStart_us + i * 1'000'000 + 600'000);
+    EXPECT_NE(scene.localisations.back().state, localisation_t::STATE_TRACKING);
   }
-  EXPECT_EQ(scene.localisations[1].state, localisation_t::STATE_LOST);
-  EXPECT_EQ(scene.localisations.back().state, localisation_t::STATE_TRACKING);
+  EXPECT_EQ(scene.localisations.size(), 20u);
 }
 
 TEST(LocaliserService, ACloudThatTellsNothingIsNoOrigin) {

@@ -15,7 +15,7 @@ using State = bus::Health::State;
 
 // From one request to the next (us): an answer takes milliseconds, and where one packet of three is
 // lost, both ways arrive every other time.
-constexpr std::int64_t kAskPeriod_us = 500'000;
+constexpr std::int64_t kAskPeriod_us = 250'000;
 
 // Time (us) in which the mapper that is believed may say that it is still there, when another one
 // answers.
