@@ -56,8 +56,7 @@ end_chain() { end_well localiser mapper octomap_export obstacle_detector; }
 # ms of the first one since a time.
 has_answered() { heard "MAP_UPDATE [0-9]+ [0-9]+ [1-9]"; }
 heard() { grep -Eq -- "^[0-9]+ $1" "$work/watch.log"; }
-times_has_answered() { heard "MAP_UPDATE [0-9]+ [0-9]+ [1-9]"; }
-heard() { grep -Ec -- "^[0-9]+ $1" "$work/watch.log" || true; }
+times_heard() { grep -Ec -- "^[0-9]+ $1" "$work/watch.log" || true; }
 heard_times() { (($(times_heard "$2") >= $1)); }
 first_heard_ms() { awk -v since="$1" -v what="^[0-9]+ $2" '$1 >= since && $0 ~ what { print $1; exit }' "$work/watch.log"; }
 heard_since() { [[ -n $(first_heard_ms "$1" "$2") ]]; }
