@@ -6,10 +6,10 @@
 #include <cctype>
 #include <map>
 #include <optional>
-#include <regex>
 #include <stdexcept>
 #include <string_view>
 
+#include "voxlist/bus/multicast/address.h"
 #include "voxlist/bus/transport.h"
 
 namespace voxlist::bus {
@@ -31,19 +31,6 @@ bool is_plain(const std::string& channel) {
     return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-' || c == '/';
   };
   return std::ranges::all_of(channel, allowed);
-}
-
-// udpm://GROUP:PORT with options behind; LCM takes what is left out from its own defaults.
-bool is_multicast_url(const std::string& url) {
-  static const std::regex form(
-      R"(udpm://((\d{1,3})\.\d{1,3}\.\d{1,3}\.\d{1,3}(:(\d{1,5}))?)?(\?[a-z_]+=\w+(&[a-z_]+=\w+)*)?)");
-  std::smatch parts;
-  if (!std::regex_match(url, parts, form)) return false;
-  const auto number = [&](std::size_t i, int other) {
-    return parts[i].matched ? std::stoi(parts[i]) : other;
-  };
-  const int group = number(2, 239), port = number(4, 1);
-  return group >= 224 && group <= 239 && port >= 1 && port <= 65535;
 }
 
 std::string log_path(const std::string& url) {
@@ -73,7 +60,6 @@ struct Bus::Impl {
   std::map<std::string, Subscription> subscriptions;
   Counters counters;
   Counters losses;
-  std::vector<std::string> warnings;
   std::string first_handler_error;
   std::int64_t arrival_utime_us = 0;
 
@@ -143,7 +129,7 @@ std::string why_invalid(const BusOptions& options) {
     return fmt::format("channel prefix '{}' may only hold letters, digits, _ - and /, {} at most",
                        options.prefix, kMaxPrefix);
   if (is_recording(options.url) || options.url.starts_with("memq://")) return {};
-  if (is_multicast_url(options.url)) return {};
+  if (multicast_address(options.url)) return {};
   return fmt::format(
       "url '{}' cannot be opened: use udpm://GROUP:PORT?ttl=N (GROUP 224.0.0.0 to "
       "239.255.255.255), memq:// or "
@@ -155,8 +141,8 @@ Bus::Bus(const BusOptions& options) : impl_(std::make_unique<Impl>()) {
   if (const std::string wrong = why_invalid(options); !wrong.empty())
     throw std::runtime_error("bus: " + wrong);
   impl_->prefix = options.prefix;
-  impl_->transport = is_recording(options.url) ? open_log(log_path(options.url))
-                                               : open_lcm(options, impl_->warnings);
+  impl_->transport =
+      is_recording(options.url) ? open_log(log_path(options.url)) : open_lcm(options);
 }
 
 Bus::~Bus() = default;
@@ -203,7 +189,7 @@ const Counters& Bus::counters() const { return impl_->counters; }
 
 const Counters& Bus::losses() const { return impl_->losses; }
 
-const std::vector<std::string>& Bus::warnings() const { return impl_->warnings; }
+Traffic Bus::traffic() const { return impl_->transport->traffic(); }
 
 const std::string& Bus::first_handler_error() const { return impl_->first_handler_error; }
 

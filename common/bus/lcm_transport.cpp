@@ -6,9 +6,11 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <optional>
 #include <stdexcept>
 
 #include "voxlist/bus/bus.h"
+#include "voxlist/bus/multicast/multicast_sender.h"
 #include "voxlist/bus/transport.h"
 
 namespace voxlist::bus {
@@ -29,29 +31,6 @@ std::string with_receive_buffer(const std::string& url, int bytes) {
   return fmt::format("{}{}recv_buf_size={}", url, separator, bytes);
 }
 
-// The receive buffer that the kernel gives when asked for this much: it clamps silently. Read back
-// from a socket, because /proc/sys/net/core does not show the limit inside a network namespace.
-int granted_receive_buffer(int bytes) {
-  const int fd = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-  if (fd < 0) return bytes;
-  int granted = 0;
-  socklen_t length = sizeof granted;
-  const bool known = setsockopt(fd, SOL_SOCKET, SO_RCVBUF, &bytes, sizeof bytes) == 0 &&
-                     getsockopt(fd, SOL_SOCKET, SO_RCVBUF, &granted, &length) == 0;
-  close(fd);
-  // The kernel reports twice what it was asked for: half is its own bookkeeping.
-  return known ? granted / 2 : bytes;
-}
-
-void warn_of_small_buffer(int wanted, std::vector<std::string>& warnings) {
-  const int granted = granted_receive_buffer(wanted);
-  if (granted >= wanted) return;
-  warnings.push_back(
-      fmt::format("bus: receive buffer is {} B instead of {} B, large messages may be lost; allow "
-                  "more with: sysctl -w net.core.rmem_max={}",
-                  granted, wanted, wanted));
-}
-
 [[noreturn]] void fail_to_open(const std::string& url) {
   throw std::runtime_error(
       "bus: cannot open " + url +
@@ -67,6 +46,10 @@ class LcmTransport : public Transport {
     if (!lcm_) fail_to_open(url);
     fd_ = lcm_get_fileno(lcm_.get());
     if (fd_ < 0) fail_to_open(url);
+    if (const auto address = multicast_address(url)) {
+      port_ = address->port;
+      sender_.emplace(*address);
+    }
   }
 
   void listen(const std::string& channel, int capacity) override {
@@ -77,6 +60,7 @@ class LcmTransport : public Transport {
   }
 
   bool send(const std::string& channel, Bytes bytes) override {
+    if (sender_) return sender_->send(channel, bytes);
     return lcm_publish(lcm_.get(), channel.c_str(), bytes.data(),
                        static_cast<unsigned>(bytes.size())) == 0;
   }
@@ -97,6 +81,13 @@ class LcmTransport : public Transport {
 
   int batch() const override { return 256; }
 
+  Traffic traffic() const override {
+    if (!sender_) return {};
+    return {.queued_bytes = sender_->queued_bytes(),
+            .failed_messages = sender_->failed(),
+            .dropped_packets = dropped_by_own_sockets(port_)};
+  }
+
  private:
   static void hand_over(const lcm_recv_buf_t* buffer, const char* channel, void* self) {
     const auto* data = static_cast<const std::uint8_t*>(buffer->data);
@@ -105,6 +96,8 @@ class LcmTransport : public Transport {
   }
 
   std::unique_ptr<lcm_t, LcmDeleter> lcm_;
+  std::optional<MulticastSender> sender_;  // of udpm:// alone, like its port
+  int port_ = 0;
   int fd_ = -1;
   int failures_ = 0;
   const Receiver* receiver_ = nullptr;
@@ -112,9 +105,8 @@ class LcmTransport : public Transport {
 
 }  // namespace
 
-std::unique_ptr<Transport> open_lcm(const BusOptions& options, std::vector<std::string>& warnings) {
+std::unique_ptr<Transport> open_lcm(const BusOptions& options) {
   const int wanted = options.receive_buffer_bytes;
-  if (is_multicast(options.url)) warn_of_small_buffer(wanted, warnings);
   return std::make_unique<LcmTransport>(with_receive_buffer(options.url, wanted));
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "voxlist/bus/traffic.h"
 #include "voxlist/bus/wire.h"
 
 namespace voxlist::bus {
@@ -42,10 +43,13 @@ class Transport {
 
   /// How many messages one Bus::handle() may take.
   virtual int batch() const = 0;
+
+  /// See Bus::traffic().
+  virtual Traffic traffic() const { return {}; }
 };
 
-/// The network, or memq. Adds to `warnings`; throws std::runtime_error when it cannot connect.
-std::unique_ptr<Transport> open_lcm(const BusOptions& options, std::vector<std::string>& warnings);
+/// The network, or memq. Throws std::runtime_error when it cannot connect.
+std::unique_ptr<Transport> open_lcm(const BusOptions& options);
 
 /// A recording, as fast as it is asked for. Throws std::runtime_error when it cannot be read.
 std::unique_ptr<Transport> open_log(const std::string& path);

@@ -120,7 +120,6 @@ int run_service(int argc, char** argv, const ServiceInfo& info, const config::Se
   log_to_stderr(info.name);
   const FileLock lock = take_lock(info, options);
   bus::Bus bus(options);
-  for (const std::string& warning : bus.warnings()) spdlog::warn("{}", warning);
   bus::Health health(info.name);
   const auto service = make(bus, health);
   spdlog::info("started on {}", options.url);

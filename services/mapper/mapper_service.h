@@ -8,7 +8,7 @@
 #include "services/mapper/keyframe_keeper.h"
 #include "services/mapper/travelled_path.h"
 #include "voxlist/bus/maps/map_chunks.h"
-#include "voxlist/bus/paced_sender.h"
+#include "voxlist/bus/multicast/paced_sender.h"
 #include "voxlist/mapping/map_builder.h"
 #include "voxlist/service/inputs/cloud_input.h"
 

@@ -4,13 +4,13 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdlib>
-#include <filesystem>
 #include <stdexcept>
 #include <voxlist/map_octree_t.hpp>
 #include <voxlist/map_request_t.hpp>
 #include <voxlist/pointcloud_t.hpp>
 #include <voxlist/pose_t.hpp>
+
+#include "tests/bus/private_network.h"
 
 namespace voxlist::bus {
 namespace {
@@ -192,36 +192,10 @@ TEST(BusOptions, AreRefusedWithALineThatSaysWhatToDo) {
             std::string::npos);
 }
 
-TEST(BusOptions, WarnWithTheRemedyWhenTheKernelGivesASmallerBuffer) {
-  // The largest that can be asked for: no kernel is set up to give it.
-  BusOptions options;
-  options.receive_buffer_bytes = 2'000'000'000;
-  std::vector<std::string> warnings;
-  try {
-    warnings = Bus(options).warnings();
-  } catch (const std::runtime_error&) {
-    GTEST_SKIP() << "no route for multicast here";
-  }
-  ASSERT_EQ(warnings.size(), 1U);
-  EXPECT_NE(warnings[0].find("sysctl -w net.core.rmem_max=2000000000"), std::string::npos);
-}
-
 // The tests below run in a private network: the first ones start them there.
-int run_in_private_network(const std::string& setup, const std::string& test) {
-  const std::string self = std::filesystem::read_symlink("/proc/self/exe");
-  const std::string command = "unshare -rn sh -c '" + setup + " " + self +
-                              " --gtest_also_run_disabled_tests --gtest_filter=" + test + "'";
-  return std::system(command.c_str());
-}
-
-bool has_private_networks() {
-  return std::system("unshare -rn sh -c 'ip link set lo up' 2>/dev/null") == 0;
-}
-
 TEST(Bus, CarriesLargeCloudsOverUdp) {
   if (!has_private_networks()) GTEST_SKIP() << "no private network namespaces here";
-  EXPECT_EQ(run_in_private_network("ip link set lo up && ip route add 224.0.0.0/4 dev lo &&",
-                                   "PrivateNetwork.DISABLED_CarriesLargeClouds"),
+  EXPECT_EQ(run_in_private_network(kWithMulticast, "PrivateNetwork.DISABLED_CarriesLargeClouds"),
             0);
 }
 

@@ -1,4 +1,4 @@
-#include "voxlist/bus/paced_sender.h"
+#include "voxlist/bus/multicast/paced_sender.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <cstdint>
+
+namespace voxlist::bus {
+
+/// What the network does behind a Bus's back.
+struct Traffic {
+  /// Published, and still to be sent.
+  std::int64_t queued_bytes = 0;
+  /// Published, but refused by the system when it was their turn.
+  std::int64_t failed_messages = 0;
+  /// Packets that the kernel had no room for when they came: the message of each is lost.
+  std::int64_t dropped_packets = 0;
+};
+
+}  // namespace voxlist::bus
