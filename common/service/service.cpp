@@ -15,10 +15,12 @@
 #include "voxlist/service/command_line.h"
 #include "voxlist/service/drop_report.h"
 #include "voxlist/service/instance_lock.h"
+#include "voxlist/service/resource_report.h"
 #include "voxlist/service/run_folder.h"
 #include "voxlist/service/state_log.h"
 #include "voxlist/service/stop.h"
 #include "voxlist/system/file_lock.h"
+#include "voxlist/system/memory.h"
 
 namespace voxlist::service {
 namespace {
@@ -81,12 +83,15 @@ bool run_until_stopped(bus::Bus& bus, bus::Health& health, RunningService& servi
   const Clock clock;
   DropReport drops;
   StateLog states;
+  ResourceReport resources;
   std::string told_error;
   bool open = true;
   while (open && !stop_requested()) {
     open = bus.handle(kTick, service.wake_fd());
     const std::int64_t now_us = clock.now_us();
     service.tick(now_us);
+    if (resources.is_due(now_us))
+      resources.take(bus.traffic(), memory_of_process(), now_us, health);
     if (const auto message = health.due(now_us, bus.counters()))
       bus.publish(bus::kHealth, *message);
     log_troubles(bus, drops, told_error, now_us);

@@ -2,6 +2,8 @@
 
 #include <unistd.h>
 
+#include <fstream>
+
 namespace voxlist {
 namespace {
 
@@ -15,6 +17,13 @@ std::int64_t ask() {
 std::int64_t memory_of_machine() {
   static const std::int64_t bytes = ask();
   return bytes;
+}
+
+std::int64_t memory_of_process() {
+  std::ifstream file("/proc/self/statm");
+  std::int64_t whole_pages = 0, held_pages = 0;
+  file >> whole_pages >> held_pages;
+  return file ? held_pages * ::sysconf(_SC_PAGE_SIZE) : 0;
 }
 
 }  // namespace voxlist

@@ -7,4 +7,7 @@ namespace voxlist {
 /// Bytes of memory that the machine has; 1 GB where it does not tell.
 std::int64_t memory_of_machine();
 
+/// Bytes of it that this process holds now; 0 where the system does not tell.
+std::int64_t memory_of_process();
+
 }  // namespace voxlist

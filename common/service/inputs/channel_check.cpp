@@ -77,12 +77,18 @@ bool ChannelCheck::take(std::int64_t utime_us) {
 void ChannelCheck::take_number(std::int32_t seq) {
   const std::int64_t gap = seq_ ? std::int64_t{seq} - *seq_ - 1 : 0;
   seq_ = seq;
+  const bool is_told = noted_.contains("lost_on_the_way");
+  if (!is_told) lost_ = {.messages = 0, .of = 1};
+  ++lost_.of;
   if (gap <= 0 || gap > kMaxGap) return;
+  lost_ = {.messages = lost_.messages + gap, .of = lost_.of + gap};
   health_.count(key_of("lost_on_the_way"), gap);
-  note("lost_on_the_way", State::kWarning,
-       fmt::format("{} has gaps in seq: messages are lost on their way; is "
-                   "net.core.rmem_max too small?",
-                   options_.channel));
+  note(
+      "lost_on_the_way", State::kWarning,
+      fmt::format("{} has gaps in seq: {} of {} lost on their way; does its sender put each out in "
+                  "one burst, as LCM's own does? Pace it, or allow listeners more: sysctl -w "
+                  "net.core.rmem_max=8000000",
+                  options_.channel, lost_.messages, lost_.of));
 }
 
 void ChannelCheck::note(const std::string& key, State state, const std::string& sentence) {

@@ -53,6 +53,10 @@ class ChannelCheck {
   TimeGate gate_;
   std::map<std::string, Noted> noted_;
   std::optional<std::int32_t> seq_;
+  struct {
+    std::int64_t messages = 0;
+    std::int64_t of = 0;
+  } lost_;  // since it is told
   bool heard_ = false;
   std::optional<std::int64_t> start_us_;
   std::optional<std::int64_t> last_heard_us_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <voxlist/health_t.hpp>
 
 namespace voxlist::desk {
@@ -23,6 +24,29 @@ std::string printable(std::string text) {
   return text;
 }
 
+constexpr char kRow[] = "{:<20} {:<8} {:>9} {:>8} {:>7}  {}{}";
+
+// Its gauge has a column of its own; of others so many are shown.
+constexpr char kMemory[] = "memory_MB";
+constexpr std::size_t kMaxGauges = 16;
+
+std::map<std::string, double> gauges_of(const health_t& message) {
+  std::map<std::string, double> gauges;
+  for (const gauge_t& gauge : message.gauges)
+    if (gauges.size() < kMaxGauges && std::isfinite(gauge.value))
+      gauges[printable(gauge.name).substr(0, 2 * kMaxName)] = gauge.value;
+  return gauges;
+}
+
+// Those that are not 0: " [map_voxels 41234]".
+std::string other_gauges(const std::map<std::string, double>& gauges) {
+  std::string text;
+  for (const auto& [name, value] : gauges)
+    if (name != kMemory && value != 0.0)
+      text += fmt::format("{}{} {:.6g}", text.empty() ? " [" : ", ", name, value);
+  return text.empty() ? text : text + ']';
+}
+
 std::string state_name(std::int32_t state) {
   if (state == health_t::STATE_OK) return "OK";
   if (state == health_t::STATE_WARNING) return "WARNING";
@@ -38,7 +62,12 @@ HealthBoard::HealthBoard(std::vector<std::string> expected) {
 void HealthBoard::take(const health_t& message, double now_s) {
   const std::string name = printable(message.service).substr(0, kMaxName);
   if (name.empty() || (!entries_.contains(name) && entries_.size() >= kMaxServices)) return;
-  entries_[name] = {true, now_s, message.state, message.latency_p99_ms, printable(message.message)};
+  entries_[name] = {true,
+                    now_s,
+                    message.state,
+                    message.latency_p99_ms,
+                    printable(message.message),
+                    gauges_of(message)};
 }
 
 bool HealthBoard::all_heard() const {
@@ -55,13 +84,16 @@ bool HealthBoard::is_well(double now_s) const {
 
 std::vector<std::string> HealthBoard::table(double now_s) const {
   std::vector<std::string> lines = {
-      fmt::format("{:<20} {:<8} {:>9} {:>7}  {}", "SERVICE", "STATE", "P99", "AGE", "REASON")};
+      fmt::format(kRow, "SERVICE", "STATE", "P99", "MEMORY", "AGE", "REASON", "")};
   for (const auto& [name, entry] : entries_) {
     const bool has_latency = entry.heard && entry.latency_p99_ms >= 0.0F;
-    lines.push_back(fmt::format("{:<20} {:<8} {:>9} {:>7}  {}", name, state_of(entry, now_s),
-                                has_latency ? fmt::format("{:.1f} ms", entry.latency_p99_ms) : "-",
-                                entry.heard ? fmt::format("{:.0f} s", now_s - entry.heard_s) : "-",
-                                reason_of(entry, now_s)));
+    const auto memory = entry.gauges.find(kMemory);
+    lines.push_back(
+        fmt::format(kRow, name, state_of(entry, now_s),
+                    has_latency ? fmt::format("{:.1f} ms", entry.latency_p99_ms) : "-",
+                    memory != entry.gauges.end() ? fmt::format("{:.0f} MB", memory->second) : "-",
+                    entry.heard ? fmt::format("{:.0f} s", now_s - entry.heard_s) : "-",
+                    reason_of(entry, now_s), other_gauges(entry.gauges)));
     while (lines.back().ends_with(' ')) lines.back().pop_back();
   }
   return lines;

@@ -23,8 +23,8 @@ class HealthBoard {
   /// Whether no service is in error or silent, and all expected ones are there.
   bool is_well(double now_s) const;
 
-  /// A table: service, state, 99th percentile of its latency, age of what it said, and why. SILENT
-  /// is a service that says nothing any more, or never did.
+  /// A table: service, state, 99th percentile of its latency, memory, age of what it said, why,
+  /// and what else it measures. SILENT is a service that says nothing any more, or never did.
   std::vector<std::string> table(double now_s) const;
 
   /// "mapper: ERROR: the disk is full", for each service with something to say.
@@ -37,6 +37,7 @@ class HealthBoard {
     std::int32_t state = 0;
     float latency_p99_ms = -1.0F;
     std::string message;
+    std::map<std::string, double> gauges = {};
   };
 
   static std::string state_of(const Entry& entry, double now_s);

@@ -28,9 +28,19 @@ TEST(HealthBoard, ShowsStateLatencyAgeAndReason) {
   board.take(health("localiser", health_t::STATE_OK, ""), 11.0);
   const auto table = board.table(12.0);
   ASSERT_THAT(table, SizeIs(3));
-  EXPECT_EQ(table[0], "SERVICE              STATE          P99     AGE  REASON");
-  EXPECT_EQ(table[1], "localiser            OK         12.3 ms     1 s");
-  EXPECT_EQ(table[2], "mapper               ERROR      12.3 ms     2 s  the disk is full");
+  EXPECT_EQ(table[0], "SERVICE              STATE          P99   MEMORY     AGE  REASON");
+  EXPECT_EQ(table[1], "localiser            OK         12.3 ms        -     1 s");
+  EXPECT_EQ(table[2], "mapper               ERROR      12.3 ms        -     2 s  the disk is full");
+}
+
+TEST(HealthBoard, ShowsMemoryAndWhatElseIsMeasured) {
+  HealthBoard board;
+  health_t message = health("mapper", health_t::STATE_OK, "");
+  message.gauges = {{"memory_MB", 41.6}, {"map_voxels", 51'234}, {"send_queue_MB", 0.0}};
+  message.n_gauges = 3;
+  board.take(message, 10.0);
+  EXPECT_EQ(board.table(10.0)[1],
+            "mapper               OK         12.3 ms    42 MB     0 s   [map_voxels 51234]");
 }
 
 TEST(HealthBoard, MarksWhatIsStaleAndSaysHowItWas) {
@@ -38,9 +48,10 @@ TEST(HealthBoard, MarksWhatIsStaleAndSaysHowItWas) {
   board.take(health("mapper", health_t::STATE_WARNING, "no CLOUD yet"), 10.0);
   EXPECT_TRUE(board.is_well(13.0));
   EXPECT_FALSE(board.is_well(13.1));
-  EXPECT_THAT(board.table(30.0)[1],
-              HasSubstr("SILENT     12.3 ms    20 s  nothing heard for 20 s; it was WARNING: no "
-                        "CLOUD yet"));
+  EXPECT_THAT(
+      board.table(30.0)[1],
+      HasSubstr("SILENT     12.3 ms        -    20 s  nothing heard for 20 s; it was WARNING: no "
+                "CLOUD yet"));
 }
 
 TEST(HealthBoard, MissesServicesThatNeverSpoke) {

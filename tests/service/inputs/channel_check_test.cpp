@@ -115,8 +115,10 @@ TEST(ChannelCheck, AConditionEndsFiveSecondsAfterItWasLastSeen) {
 TEST(ChannelCheck, CountsWhatGapsInTheNumbersTell) {
   Channel channel;
   for (const int seq : {5, 6, 9}) channel.check.take_number(seq);
-  EXPECT_THAT(channel.health.message(), HasSubstr("CLOUD has gaps in seq"));
-  EXPECT_EQ(channel.counted("CLOUD/lost_on_the_way"), 2);
+  EXPECT_THAT(channel.health.message(), HasSubstr("CLOUD has gaps in seq: 2 of 4 lost"));
+  for (const int seq : {10, 11, 15}) channel.check.take_number(seq);
+  EXPECT_THAT(channel.health.message(), HasSubstr("CLOUD has gaps in seq: 5 of 10 lost"));
+  EXPECT_EQ(channel.counted("CLOUD/lost_on_the_way"), 5);
 }
 
 TEST(ChannelCheck, NumbersThatStayOrBeginAnewAreNoGaps) {
