@@ -1,6 +1,7 @@
 // Plays the localiser for the mapper: keyframe after keyframe, each when the one before is
 // answered. Writes the map's version, which counts its keyframes, with each answer. Keyframe N is
-// of second N, and of a place of its own. Usage: map_feeder, until it is ended.
+// of second N, and of a place of its own within a kilometre or so. Usage: map_feeder, until it is
+// ended.
 #include <chrono>
 #include <iostream>
 #include <optional>
@@ -51,7 +52,8 @@ struct Feeder {
     message.state = localisation_t::STATE_TRACKING;
     message.n_modes = 1;
     message.modes.resize(1);
-    message.modes[0].pose[0] = static_cast<double>(version);
+    message.modes[0].pose[0] = static_cast<double>(version % 1000);
+    message.modes[0].pose[1] = 10.0 * static_cast<double>(version / 1000);
     bus.publish(bus::kLocalisation, message);
   }
 
