@@ -151,6 +151,8 @@ void MapperService::take_request(const map_request_t& message) {
     case map_request_t::WANT_SAVE:
       save_wanted_ = true;
       return;
+    case map_request_t::WANT_WORD:
+      return;
     default:
       return health_.count("MAP_REQUEST/unknown_want");
   }

@@ -6,10 +6,13 @@
 
 namespace voxlist::services {
 
-bool KeyframeQueue::is_of_another_map(const bus::PosedCloud& keyframe) const {
-  if (map_id_ != keyframe.map_id) return true;
+bool KeyframeQueue::is_contradicted_by(const bus::PosedCloud& keyframe) const {
   return keyframe.index < next_index() &&
          handed_out_us_[static_cast<std::size_t>(keyframe.index)] != keyframe.cloud.utime_us;
+}
+
+bool KeyframeQueue::is_of_another_map(const bus::PosedCloud& keyframe) const {
+  return map_id_ != keyframe.map_id || is_contradicted_by(keyframe);
 }
 
 KeyframeQueue::Verdict KeyframeQueue::add(bus::PosedCloud keyframe) {
@@ -27,9 +30,10 @@ KeyframeQueue::Verdict KeyframeQueue::add(bus::PosedCloud keyframe) {
 }
 
 void KeyframeQueue::know_of(std::int64_t map_id, std::int32_t keyframes) {
-  if (map_id_ != map_id) *this = {};
+  if (map_id_ != map_id || keyframes < next_index()) start_over();
   map_id_ = map_id;
-  last_known_ = std::max(last_known_, keyframes - 1);
+  last_known_ = keyframes - 1;
+  waiting_.erase(waiting_.lower_bound(keyframes), waiting_.end());
 }
 
 std::optional<bus::PosedCloud> KeyframeQueue::next() {

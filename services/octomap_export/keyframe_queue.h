@@ -27,8 +27,15 @@ class KeyframeQueue {
   /// mapper lost its newest and went on), starts all over from index 0.
   Verdict add(bus::PosedCloud keyframe);
 
-  /// The mapper's map has so many keyframes. Where it is another one than before, all starts over.
+  /// The mapper's map has so many keyframes, and none beyond. Where it is another one than before,
+  /// or has fewer than were handed out, all starts over.
   void know_of(std::int64_t map_id, std::int32_t keyframes);
+
+  /// Whether another keyframe was handed out at its index.
+  bool is_contradicted_by(const bus::PosedCloud& keyframe) const;
+
+  /// From index 0 on again.
+  void start_over() { *this = {}; }
 
   /// The next keyframe in order, if it is there. The first of each map has index 0.
   std::optional<bus::PosedCloud> next();

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <exception>
@@ -27,6 +28,9 @@ constexpr std::int64_t kSecond_us = 1'000'000;
 
 // Missing keyframes are asked for this often at most: an answer takes time.
 constexpr std::int64_t kAskPeriod_us = kSecond_us;
+
+// Within this time (us) the mapper sends the keyframe that was handed out, if that was right.
+constexpr std::int64_t kSuspicion_us = 2 * kSecond_us;
 
 // OCTOMAP goes out this often at most: a large one takes a while to write and to read.
 constexpr std::int64_t kPublishPeriod_us = kSecond_us;
@@ -58,30 +62,79 @@ OctomapExportService::OctomapExportService(bus::Bus& bus, bus::Health& health,
       health_(health),
       config_(config),
       folder_(in_state_folder(config.folder)),
-      builder_(config.octomap) {
+      builder_(config.octomap),
+      word_(health) {
   if (!folder_.empty()) io::remove_stale_temporaries(folder_);
   bus_.subscribe(bus::kKeyframe, [this](const keyframe_t& m) { take(m); });
   bus_.subscribe(bus::kMapUpdate, [this](const map_update_t& m) { take_word(m); });
 }
 
-// Only what answers its own request is believed: MAP_UPDATE is open to whoever publishes on it.
 void OctomapExportService::take_word(const map_update_t& message) {
-  if (request_us_ == 0 || message.answers != request_us_) return;
-  if (message.version < 0 || message.version > std::numeric_limits<std::int32_t>::max()) return;
-  has_word_ = true;
-  queue_.know_of(message.map_id, static_cast<std::int32_t>(message.version));
+  const auto before = word_.word();
+  word_.take(message);
+  // The keyframe follows what is told of it.
+  if (before && word_.word()->version > before->version) quiet_since_us_ = now_us_;
+  follow_word();
+}
+
+void OctomapExportService::follow_word() {
+  const auto& word = word_.word();
+  if (!word) return;
+  constexpr std::int64_t kMost = std::numeric_limits<std::int32_t>::max();
+  queue_.know_of(word->map_id, static_cast<std::int32_t>(std::min(word->version, kMost)));
 }
 
 void OctomapExportService::take(const keyframe_t& message) {
   auto keyframe = bus::from_message(message);
   if (!keyframe) return health_.count("KEYFRAME/refused");
+  if (!is_credible(*keyframe)) return;
   using Verdict = KeyframeQueue::Verdict;
   const Verdict verdict = queue_.add(std::move(*keyframe));
   if (verdict == Verdict::kRepeated) health_.count("KEYFRAME/repeated");
   if (verdict == Verdict::kDroppedOne) health_.count("KEYFRAME/queue_full");
 }
 
+// Whether the mapper has such a keyframe. Until it has said what it has, any will do: what is wrong
+// with them shows then.
+bool OctomapExportService::is_credible(const bus::PosedCloud& keyframe) {
+  const auto& word = word_.word();
+  if (!word) return true;
+  const bool is_ours = keyframe.map_id == word->map_id;
+  if (is_ours && keyframe.index < word->version) return !is_contradicted_by(keyframe);
+  health_.count(is_ours ? "KEYFRAME/beyond_the_map" : "KEYFRAME/other_map");
+  word_.doubt();
+  return false;
+}
+
+bool OctomapExportService::is_contradicted_by(const bus::PosedCloud& keyframe) {
+  const bool differs = queue_.is_contradicted_by(keyframe);
+  const bool is_suspect = suspicion_ && suspicion_->index == keyframe.index;
+  if (differs) {
+    health_.count("KEYFRAME/contradicts");
+    if (!suspicion_) suspicion_ = Suspicion{keyframe.index, now_us_};
+    if (is_suspect) suspicion_->is_repeated = true;
+  } else if (is_suspect) {
+    suspicion_.reset();
+  }
+  return differs;
+}
+
+void OctomapExportService::settle_suspicion(std::int64_t now_us) {
+  if (!suspicion_) return;
+  if (!std::exchange(suspicion_->is_asked, true))
+    return request(map_request_t::WANT_KEYFRAMES, suspicion_->index, now_us);
+  if (now_us - suspicion_->since_us < kSuspicion_us) return;
+  if (suspicion_->is_repeated) queue_.start_over();
+  suspicion_.reset();
+}
+
 void OctomapExportService::tick(std::int64_t now_us) {
+  now_us_ = now_us;
+  word_.tick(now_us);
+  settle_suspicion(now_us);
+  follow_word();
+  if (const auto question_us = word_.due(now_us))
+    request(map_request_t::WANT_WORD, 0, *question_us);
   if (const auto keyframe = queue_.next()) {
     insert(*keyframe);
     quiet_since_us_ = now_us;
@@ -114,7 +167,7 @@ void OctomapExportService::insert(const bus::PosedCloud& keyframe) {
 
 // A whole answer without the word on how many there are: there may be more.
 std::optional<std::int32_t> OctomapExportService::missing() const {
-  if (!has_word_ && queue_.next_index() == asked_up_to_) return asked_up_to_;
+  if (!word_.word() && queue_.next_index() == asked_up_to_) return asked_up_to_;
   return queue_.missing();
 }
 
@@ -122,14 +175,16 @@ void OctomapExportService::ask(std::int32_t first, std::int64_t now_us) {
   const bool is_answered = first == asked_up_to_;
   if (!is_answered && quiet_since_us_ && now_us - *quiet_since_us_ < kAskPeriod_us) return;
   quiet_since_us_ = now_us;
-  request_us_ = now_us;
-  has_word_ = false;
   asked_up_to_ = first + bus::kKeyframesAtOnce;
-  map_request_t request{};
-  request.utime = now_us;
-  request.want = map_request_t::WANT_KEYFRAMES;
-  request.first = first;
-  bus_.publish(bus::kMapRequest, request);
+  request(map_request_t::WANT_KEYFRAMES, first, now_us);
+}
+
+void OctomapExportService::request(std::int32_t want, std::int32_t first, std::int64_t utime_us) {
+  map_request_t message{};
+  message.utime = utime_us;
+  message.want = want;
+  message.first = first;
+  bus_.publish(bus::kMapRequest, message);
 }
 
 void OctomapExportService::publish(std::int64_t now_us) {

@@ -9,6 +9,7 @@
 #include "services/octomap_export/keyframe_queue.h"
 #include "voxlist/bus/channels.h"
 #include "voxlist/planning/octomap.h"
+#include "voxlist/service/inputs/mapper_word.h"
 
 namespace voxlist::bus {
 class Bus;
@@ -61,9 +62,14 @@ class OctomapExportService {
 
   void take(const keyframe_t& message);
   void take_word(const map_update_t& message);
+  void follow_word();
+  bool is_credible(const bus::PosedCloud& keyframe);
+  bool is_contradicted_by(const bus::PosedCloud& keyframe);
+  void settle_suspicion(std::int64_t now_us);
   void insert(const bus::PosedCloud& keyframe);
   std::optional<std::int32_t> missing() const;
   void ask(std::int32_t first, std::int64_t now_us);
+  void request(std::int32_t want, std::int32_t first, std::int64_t utime_us);
   void publish(std::int64_t now_us);
   void save(std::int64_t now_us);
   void write_files() const;
@@ -80,9 +86,16 @@ class OctomapExportService {
   std::int64_t keyframes_ = 0;
   Pending publishing_, saving_;
   std::optional<std::int64_t> quiet_since_us_;  // last keyframe inserted, or asked for
-  std::int64_t request_us_ = 0;                 // utime of the last request
-  bool has_word_ = false;                       // the mapper's on it
-  std::int32_t asked_up_to_ = -1;               // index after the last one that it brings
+  std::int32_t asked_up_to_ = -1;               // index after the last one that was asked for
+  service::MapperWord word_;
+  std::int64_t now_us_ = 0;
+  // A keyframe that another one was handed out instead of: who is right, the mapper is asked.
+  struct Suspicion {
+    std::int32_t index;
+    std::int64_t since_us;
+    bool is_asked = false, is_repeated = false;
+  };
+  std::optional<Suspicion> suspicion_;
   std::string save_error_;
 };
 

@@ -106,14 +106,25 @@ TEST(KeyframeQueue, MissesWhatTheMapperIsSaidToHave) {
   queue.know_of(map_id, 3);
   EXPECT_EQ(queue.missing(), 1);
   EXPECT_FALSE(queue.is_done());
-  queue.know_of(map_id, 2);
   queue.add(keyframe(1));
   queue.next();
-  EXPECT_EQ(queue.missing(), 2) << "what it knew it knows";
+  EXPECT_EQ(queue.missing(), 2);
+  queue.know_of(map_id, 1);
+  EXPECT_EQ(queue.missing(), 0) << "the mapper has lost one that was handed out";
   queue.know_of(map_id + 1, 5);
   EXPECT_EQ(queue.missing(), 0) << "of another map";
   queue.know_of(map_id + 2, 0);
   EXPECT_EQ(queue.missing(), std::nullopt) << "an empty one";
+}
+
+TEST(KeyframeQueue, WaitsForNoKeyframeThatTheMapperDoesNotHave) {
+  KeyframeQueue queue;
+  queue.add(keyframe(0));
+  queue.next();
+  queue.add(keyframe(2'000'000'000));
+  EXPECT_EQ(queue.missing(), 1);
+  queue.know_of(keyframe(0).map_id, 1);
+  EXPECT_TRUE(queue.is_done());
 }
 
 }  // namespace
