@@ -55,9 +55,10 @@ settings_in_use() {
   done
 }
 
-# read_bus CONFIG: sets lcm_url and prefix as the services with these settings have them; of "" as those in use.
+# read_bus CONFIG: sets lcm_url and prefix as the services with these settings have them; of "" as those in use. Sets
+# desk to the program voxlist, or to nothing.
 read_bus() {
-  local config=${1:-$(settings_in_use)} desk told
+  local config=${1:-$(settings_in_use)} told
   lcm_url=${LCM_DEFAULT_URL:-udpm://239.255.76.67:7667?ttl=0}
   prefix=
   desk=${VOXLIST_BIN_DIR:-$root/build/bin}/voxlist

@@ -27,6 +27,7 @@ void add_simulate(CLI::App& program, Command& chosen);
 void add_calibrate(CLI::App& program, Command& chosen);
 void add_watch(CLI::App& program, Command& chosen);
 void add_health(CLI::App& program, Command& chosen);
+void add_play(CLI::App& program, Command& chosen);
 void add_bus(CLI::App& program, Command& chosen);
 
 }  // namespace voxlist::desk

@@ -81,6 +81,7 @@ int run_desk(std::vector<std::string> arguments, Console& console) {
 #endif
   add_watch(program, chosen);
   add_health(program, chosen);
+  add_play(program, chosen);
   add_bus(program, chosen);
   if (is_unknown_word(program, arguments))
     return tell_unknown_word(program, arguments.front(), console);
