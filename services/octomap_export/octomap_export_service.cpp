@@ -140,6 +140,7 @@ void OctomapExportService::tick(std::int64_t now_us) {
     quiet_since_us_ = now_us;
   }
   if (const auto first = missing()) ask(*first, now_us);
+  if (service::stop_requested()) return;
   if (publishing_.due(now_us, kPublishPeriod_us)) publish(now_us);
   // While it catches up, a file of an earlier run holds more than it does: the first period starts
   // with the service, and none ends before everything is in.
