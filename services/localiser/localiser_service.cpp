@@ -127,6 +127,8 @@ void LocaliserService::tick(std::int64_t now_us) {
   odometry_check_.tick(now_us);
   if (const auto request = mapper_.tick(now_us)) bus_.publish(bus::kMapRequest, *request);
   follow_mapper();
+  health_.gauge("map_voxels", static_cast<double>(map_.occupied.size()));
+  health_.gauge("clouds_waiting", static_cast<double>(waiting_.size()));
   if (waiting_.empty()) return;
   if (unanswered_utime_us_ && !unanswered_since_us_) unanswered_since_us_ = now_us;
   if (!map_is_due(now_us)) return;

@@ -252,6 +252,8 @@ void MapperService::tick(std::int64_t now_us) {
   if (last_look_us_ && now_us - *last_look_us_ < kLookPeriod_us) return;
   last_look_us_ = now_us;
   keyframes_.look_after();
+  health_.gauge("map_voxels", static_cast<double>(builder_.map().occupied.size()));
+  health_.gauge("map_queue_MB", static_cast<double>(sender_.queued_bytes()) * 1e-6);
 }
 
 void MapperService::save_on_request() {

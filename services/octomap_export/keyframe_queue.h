@@ -47,6 +47,9 @@ class KeyframeQueue {
   /// All that is known of was handed out.
   bool is_done() const;
 
+  /// Keyframes that wait to be handed out.
+  std::size_t waiting() const { return waiting_.size(); }
+
   /// Of the keyframe that next() hands out next.
   std::int32_t next_index() const { return static_cast<std::int32_t>(handed_out_us_.size()); }
 

@@ -223,6 +223,7 @@ void OctomapExportService::write_files() const {
 void OctomapExportService::report() {
   using State = bus::Health::State;
   const auto missing = queue_.missing();
+  health_.gauge("keyframes_waiting", static_cast<double>(queue_.waiting()));
   health_.raise("save", State::kError, save_error_);
   health_.raise("reach", State::kWarning, reach_sentence(builder_.reach_m()));
   if (!missing) return health_.clear("keyframes");

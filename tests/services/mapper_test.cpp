@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <optional>
@@ -103,6 +104,20 @@ TEST(Mapper, AnswersARequestWithTheEmptyMapThatItStartsFrom) {
   scene.request(map_request_t::WANT_MAP);
   ASSERT_TRUE(scene.assembler.held());
   EXPECT_EQ(scene.assembler.held()->version, 0);
+}
+
+TEST(Mapper, TellsInHealthHowLargeItsMapIs) {
+  const TemporaryFolder folder;
+  Scene scene(folder.string());
+  scene.request(map_request_t::WANT_MAP);
+  scene.drive(1, {});
+  scene.now_us += kSecond_us;
+  scene.run();
+  const health_t health = scene.health.last(scene.now_us);
+  const auto voxels = std::ranges::find(health.gauges, "map_voxels", &gauge_t::name);
+  ASSERT_NE(voxels, health.gauges.end());
+  EXPECT_GT(voxels->value, 0.0);
+  EXPECT_EQ(voxels->value, static_cast<double>(scene.map.occupied.size()));
 }
 
 TEST(Mapper, AddsSureCloudsThatMovedAndAnswersEveryLocalisation) {
