@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <utility>
 #include <voxlist/mirror_state_t.hpp>
 #include <voxlist/planar_lidar_t.hpp>
 #include <voxlist/pointcloud_t.hpp>
@@ -27,6 +28,13 @@ constexpr double kGoodLineShare = 0.95;
 CloudAssemblerService::CloudAssemblerService(bus::Bus& bus, bus::Health& health,
                                              const scanner::CloudAssemblerConfig& config)
     : bus_(bus), health_(health), config_(config), assembler_(config) {
+  for (const auto& [input, channel] :
+       {std::pair{&laser_, bus::kLaser.name}, std::pair{&mirror_, bus::kMirror.name},
+        std::pair{&odometry_, bus::kOdometry.name}}) {
+    input->times.emplace(
+        health, service::ChannelCheck::Options{
+                    .channel = channel, .remedy = "", .disorder_us = OdometryBuffer::kMaxAge_us});
+  }
   bus_.subscribe(bus::kLaser, [this](const planar_lidar_t& m) { take_laser(m); });
   bus_.subscribe(bus::kMirror, [this](const mirror_state_t& m) { take_mirror(m); });
   bus_.subscribe(bus::kOdometry, [this](const pose_t& m) { take_odometry(m); });
@@ -36,15 +44,20 @@ void CloudAssemblerService::check(const scanner::CloudAssemblerConfig& config) {
   scanner::CloudAssembler{config};
 }
 
+bool CloudAssemblerService::fits(Input& input, std::int64_t utime_us) {
+  input.heard = true;
+  return input.times->take(utime_us);
+}
+
 void CloudAssemblerService::take_laser(const planar_lidar_t& message) {
-  laser_.heard = true;
+  if (!fits(laser_, message.utime)) return;
   auto line = bus::from_message(message);
   if (!line) return health_.count("LASER/not_a_line");
   publish(assembler_.add_line(std::move(*line)));
 }
 
 void CloudAssemblerService::take_mirror(const mirror_state_t& message) {
-  mirror_.heard = true;
+  if (!fits(mirror_, message.utime)) return;
   auto state = bus::from_message(message);
   if (!state) return health_.count("MIRROR/not_a_state");
   mirror_state_ = std::move(*state);
@@ -52,7 +65,7 @@ void CloudAssemblerService::take_mirror(const mirror_state_t& message) {
 }
 
 void CloudAssemblerService::take_odometry(const pose_t& message) {
-  odometry_.heard = true;
+  if (!fits(odometry_, message.utime)) return;
   const auto pose = bus::from_message(message);
   if (!pose) return health_.count("ODOMETRY/not_a_pose");
   publish(assembler_.add_odometry({pose->utime_us, to_pose2(pose->pose)}));
@@ -76,6 +89,7 @@ void CloudAssemblerService::tick(std::int64_t now_us) {
     if (!started_) input->last_us = now_us;
     input->note(now_us);
   }
+  for (Input* input : {&laser_, &mirror_, &odometry_}) input->times->tick(now_us);
   started_ = true;
   if (arrival_us_) health_.add_latency_us(now_us - *arrival_us_);
   arrival_us_.reset();

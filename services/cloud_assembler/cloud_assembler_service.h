@@ -6,6 +6,7 @@
 
 #include "voxlist/bus/channels.h"
 #include "voxlist/scanner/sweep/cloud_assembler.h"
+#include "voxlist/service/inputs/channel_check.h"
 
 namespace voxlist::bus {
 class Bus;
@@ -33,6 +34,7 @@ class CloudAssemblerService {
   struct Input {
     bool heard = false;
     std::int64_t last_us = 0;
+    std::optional<service::ChannelCheck> times = {};
     void note(std::int64_t now_us);
     bool is_silent(std::int64_t now_us) const;
   };
@@ -44,6 +46,7 @@ class CloudAssemblerService {
   void tell_state(std::int64_t now_us);
   std::string why_no_clouds(std::int64_t now_us) const;
   std::string drop_reason() const;
+  bool fits(Input& input, std::int64_t utime_us);
 
   bus::Bus& bus_;
   bus::Health& health_;

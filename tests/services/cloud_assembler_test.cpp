@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <vector>
@@ -193,13 +194,34 @@ TEST(CloudAssemblerService, SaysWhenNoLineCanBeUsed) {
 
 TEST(CloudAssemblerService, CountsMessagesThatMakeNoSense) {
   Scene scene;
-  scene.laser(-1);
-  scene.mirror(-1);
-  scene.odometry(-1);
+  planar_lidar_t line{};
+  line.rad0 = std::numeric_limits<float>::quiet_NaN();
+  scene.bus.publish(bus::kLaser, line);
+  mirror_state_t mirror{};
+  mirror.state = 99;
+  scene.bus.publish(bus::kMirror, mirror);
+  scene.bus.publish(bus::kOdometry, pose_t{});
   scene.hear();
   EXPECT_EQ(scene.counted("LASER/not_a_line"), 1);
   EXPECT_EQ(scene.counted("MIRROR/not_a_state"), 1);
   EXPECT_EQ(scene.counted("ODOMETRY/not_a_pose"), 1);
+}
+
+TEST(CloudAssemblerService, NamesTimesThatDoNotGoOn) {
+  Scene scene;
+  scene.play(80);
+  const auto clouds = scene.clouds.size();
+  scene.laser(scene.now_us * 1000);
+  scene.mirror(scene.now_us - 3600 * kSecond_us);
+  scene.odometry(scene.now_us + 3600 * kSecond_us);
+  scene.hear();
+  const std::string told = scene.told().message;
+  EXPECT_THAT(told, HasSubstr("LASER has a utime that is no microseconds: is it in nanoseconds?"));
+  EXPECT_THAT(told, HasSubstr("MIRROR goes back in utime"));
+  EXPECT_THAT(told, HasSubstr("ODOMETRY jumps ahead in utime"));
+  EXPECT_EQ(scene.counted("LASER/bad_utime"), 1);
+  scene.play(150);
+  EXPECT_EQ(scene.clouds.size(), clouds + 2) << "they cost themselves alone";
 }
 
 TEST(CloudAssemblerService, DoesNotStartWithSettingsThatDoNotFitTogether) {

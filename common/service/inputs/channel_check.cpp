@@ -106,6 +106,7 @@ void ChannelCheck::tick(std::int64_t now_us) {
 }
 
 void ChannelCheck::note_silence(std::int64_t now_us) {
+  if (options_.remedy.empty()) return;
   if (!start_us_) start_us_ = now_us;
   if (std::exchange(heard_, false)) {
     if (last_heard_us_) {

@@ -16,7 +16,8 @@ class ChannelCheck {
  public:
   struct Options {
     std::string channel;
-    /// What to look at when nothing comes: "is the scanner running?".
+    /// What to look at when nothing comes: "is the scanner running?". Empty: the service tells of
+    /// silence itself.
     std::string remedy;
     /// Whether it is a fault when nothing ever comes.
     bool is_needed = true;
