@@ -42,7 +42,7 @@ TEST(ResourceReport, TellsALossUntilThereWasNoneForFiveSeconds) {
   EXPECT_EQ(health.state(), bus::Health::State::kWarning);
   report.take({.dropped_packets = 7}, 0, 7'000'000, health);
   EXPECT_EQ(health.message(), "");
-  report.take({.dropped_packets = 8, .failed_messages = 2}, 0, 8'000'000, health);
+  report.take({.failed_messages = 2, .dropped_packets = 8}, 0, 8'000'000, health);
   EXPECT_THAT(health.message(), StartsWith("2 large messages were refused"));
   EXPECT_THAT(health.message(), ::testing::HasSubstr("; 1 packets found no room"));
   EXPECT_EQ(health.last(0).counters.front().count, 2) << "messages_not_sent";
