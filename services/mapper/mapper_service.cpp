@@ -19,6 +19,7 @@
 #include "voxlist/bus/health.h"
 #include "voxlist/bus/maps/map_convert.h"
 #include "voxlist/bus/maps/map_faults.h"
+#include "voxlist/geometry/elementary.h"
 #include "voxlist/io/files/file.h"
 #include "voxlist/mapping/map_views.h"
 #include "voxlist/service/stop.h"
@@ -61,7 +62,7 @@ std::int64_t new_map_id() {
 std::optional<Pose2> pose_of(const localisation_t& message) {
   if (message.state != localisation_t::STATE_TRACKING || message.modes.empty()) return std::nullopt;
   const double* pose = message.modes.front().pose;
-  const bool sane = std::hypot(pose[0], pose[1]) < kDrive_m && std::isfinite(pose[2]);
+  const bool sane = elementary::hypot(pose[0], pose[1]) < kDrive_m && std::isfinite(pose[2]);
   return sane ? std::optional(Pose2{pose[0], pose[1], wrap_angle(pose[2])}) : std::nullopt;
 }
 
