@@ -84,6 +84,12 @@ bool touches(const VoxelBlock& block, const Voxel& v, std::int32_t reach) {
   return false;
 }
 
+bool on_surface(const SurfelMap& surfels, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+                double reach_m) {
+  const Surfel* surfel = surfels.find(to, from);
+  return surfel && std::abs(surfel->normal.dot(to - surfel->mean)) <= reach_m;
+}
+
 }  // namespace
 
 // Unknown space counts this share of known space: a map of few scans knows little of what a new one
@@ -118,7 +124,8 @@ Voxel EvidenceMap::cell_of(const Voxel& block) const {
   return {block.x >> shift_, block.y >> shift_, block.z >> shift_};
 }
 
-Evidence EvidenceMap::at(const Pose2& pose, std::span<const ScanRay> rays, double reach_m) const {
+Evidence EvidenceMap::at(const Pose2& pose, std::span<const ScanRay> rays, double reach_m,
+                         const SurfelMap* surfels) const {
   VOXLIST_CHECK(map_.revision() == revision_, "the map has changed and map_grew() was not called");
   Evidence sum;
   const auto reach = static_cast<std::int32_t>(std::lround(reach_m / map_.occupied.resolution_m()));
@@ -131,7 +138,7 @@ Evidence EvidenceMap::at(const Pose2& pose, std::span<const ScanRay> rays, doubl
     const Eigen::Vector3d from = moved(ray.origin), to = moved(ray.end);
     if (!in_lattice(to, kFinestResolution_m) || !in_lattice(from, kFinestResolution_m)) continue;
     ++sum.points;
-    if (hit(to, reach))
+    if (hit(to, reach) || (surfels && on_surface(*surfels, from, to, reach_m)))
       ++sum.hits;
     else if (map_.passed.contains(voxel_at(to, map_.passed.resolution_m())))
       ++sum.misses;

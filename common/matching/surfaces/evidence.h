@@ -6,6 +6,7 @@
 
 #include "voxlist/geometry/pose.h"
 #include "voxlist/matching/scan/match_points.h"
+#include "voxlist/matching/surfaces/surfels.h"
 #include "voxlist/voxels/bit_grid.h"
 #include "voxlist/voxels/occupancy_map.h"
 
@@ -48,9 +49,21 @@ class EvidenceMap {
   /// What the map says to rays at a pose. A ray's end is on the map when a voxel is within about
   /// `reach_m` on each axis. About 0.2 ms for 600 rays of 4 m.
   Evidence at(const Pose2& T_map_base, std::span<const ScanRay> rays,
-              double reach_m = kReach_m) const;
+              double reach_m = kReach_m) const {
+    return at(T_map_base, rays, reach_m, nullptr);
+  }
+
+  /// The same, where an end is also on the map when it lies within reach of the plane of a surfel:
+  /// of a wall that few rays have met, the plane is known where voxels are not. So a scan whose
+  /// rays meet the very spots of an earlier one has nothing more than one that meets others.
+  Evidence on_surfaces(const Pose2& T_map_base, std::span<const ScanRay> rays,
+                       const SurfelMap& surfels, double reach_m = kReach_m) const {
+    return at(T_map_base, rays, reach_m, &surfels);
+  }
 
  private:
+  Evidence at(const Pose2& T_map_base, std::span<const ScanRay> rays, double reach_m,
+              const SurfelMap* surfels) const;
   Voxel cell_of(const Voxel& block) const;
   bool hit(const Eigen::Vector3d& end, std::int32_t reach) const;
   bool in_matter(const Voxel& voxel) const;

@@ -1,8 +1,10 @@
 #include "voxlist/matching/surfaces/refine_covariance.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
+#include "voxlist/voxels/fast_cell.h"
 #include "voxlist/voxels/numbering.h"
 
 namespace voxlist::matching {
@@ -29,7 +31,9 @@ constexpr double kTiltExcess = 2.0;
 template <int kDof>
 struct SurfelSums {
   Square<kDof> information = Square<kDof>::Zero();  // for a point variance of 1
+  Step<kDof> pull = Step<kDof>::Zero();
   double weights = 0.0, residuals = 0.0, squares = 0.0;
+  const Surfel* surfel = nullptr;
 
   double mean() const { return residuals / weights; }
 };
@@ -56,6 +60,8 @@ std::vector<SurfelSums<kDof>> by_surfel(const std::vector<Correspondence<kDof>>&
     SurfelSums<kDof>& s = surfels[number];
     s.information += c.weight * (c.slope * c.slope.transpose() -
                                  kTiltExcess * c.surfel->tilt_variance * held_by_chance(c));
+    s.surfel = c.surfel;
+    s.pull += c.weight * c.residual * c.slope;
     s.weights += c.weight;
     s.residuals += c.weight * c.residual;
     s.squares += c.weight * c.residual * c.residual;
@@ -84,32 +90,98 @@ double variance_between(const std::vector<SurfelSums<kDof>>& surfels, double poi
                   kLeastSurfelSigma_m * kLeastSurfelSigma_m);
 }
 
-// The covariance of what was known at the start and the information together. In units of the
-// start, eigenvalues are how much more the surfaces know; negative ones know nothing.
+// The covariance of what was known before and the information together. In units of what was
+// known, eigenvalues are how much more the surfaces know; negative ones know nothing.
 template <int kDof>
-Square<kDof> with_start(const Square<kDof>& information, const Step<kDof>& sigma) {
-  const Eigen::SelfAdjointEigenSolver<Square<kDof>> axes(sigma.asDiagonal() * information *
-                                                         sigma.asDiagonal());
+Square<kDof> with(const Square<kDof>& before, const Square<kDof>& information) {
+  const Square<kDof> root = before.llt().matrixL();
+  const Eigen::SelfAdjointEigenSolver<Square<kDof>> axes(root.transpose() * information * root);
   const Step<kDof> shrunk = (axes.eigenvalues().cwiseMax(0.0).array() + 1.0).inverse();
-  return sigma.asDiagonal() * axes.eigenvectors() * shrunk.asDiagonal() *
-         axes.eigenvectors().transpose() * sigma.asDiagonal();
+  return root * axes.eigenvectors() * shrunk.asDiagonal() * axes.eigenvectors().transpose() *
+         root.transpose();
+}
+
+// What the surfaces of one place (m) pull a pose by, they may pull it by together: a wall that is
+// seen at an angle, a scan that was tilted, a car that is no plane. A judgement: the size of a car.
+constexpr double kPlace_m = 2.5;
+
+// The information as far as the places agree: where they pull a pose to and fro by more than their
+// points' scatter explains, its variance is larger by that (the sandwich estimate of a variance, of
+// White and of Huber, in clusters).
+template <int kDof>
+Square<kDof> believed(const Square<kDof>& information, const std::vector<Step<kDof>>& pulls,
+                      const Square<kDof>& before) {
+  // In units in which the information is one, as far as there is any beside what was known before.
+  const Square<kDof> known = before.inverse();
+  const Eigen::LLT<Square<kDof>> root(information + known);
+  if (root.info() != Eigen::Success) return information;
+  Square<kDof> scatter = Square<kDof>::Zero();
+  for (const Step<kDof>& pull : pulls) {
+    const Step<kDof> scaled = root.matrixL().solve(pull);
+    scatter += scaled * scaled.transpose();
+  }
+  const Eigen::SelfAdjointEigenSolver<Square<kDof>> axes(scatter);
+  const Step<kDof> excess = axes.eigenvalues().cwiseMax(1.0);
+  const Square<kDof> turn = axes.eigenvectors(), l = root.matrixL();
+  const Square<kDof> shrunk = turn * excess.cwiseInverse().asDiagonal() * turn.transpose();
+  const Square<kDof> own = root.matrixL().solve(root.matrixL().solve(information).transpose());
+  // own: the information in these units, at most one; believed to the share that the excess leaves.
+  const Eigen::SelfAdjointEigenSolver<Square<kDof>> half(shrunk);
+  const Square<kDof> half_shrunk = half.operatorSqrt();
+  return l * half_shrunk * own * half_shrunk * l.transpose();
+}
+
+// What few surfels of large cubes alone tell of the direction that all hold least, those that tell
+// most: they may be no surfaces, such as one ring of a laser across a corner, and nothing
+// contradicts them. So many of a hundred surfels, and one: in a corridor seen by 49 rings some 15
+// of 344 held its long axis.
+constexpr std::size_t kFewOfHundred = 6;
+
+template <int kDof>
+Square<kDof> of_few_surfels(const Square<kDof>& information, std::vector<Square<kDof>> told,
+                            std::size_t surfels, const Square<kDof>& before) {
+  const Square<kDof> root = before.llt().matrixL();
+  const Eigen::SelfAdjointEigenSolver<Square<kDof>> axes(root.transpose() * information * root);
+  const Step<kDof> least = root * axes.eigenvectors().col(0);
+  const auto tells = [&](const Square<kDof>& s) { return least.dot(s * least); };
+  const std::size_t few = std::min(told.size(), 1 + kFewOfHundred * surfels / 100);
+  std::partial_sort(told.begin(), told.begin() + static_cast<std::ptrdiff_t>(few), told.end(),
+                    [&](const auto& a, const auto& b) { return tells(a) > tells(b); });
+  Square<kDof> sum = Square<kDof>::Zero();
+  for (std::size_t i = 0; i < few; ++i) sum += told[i];
+  return sum;
 }
 
 }  // namespace
 
 template <int kDof>
 Square<kDof> covariance_of(const std::vector<Correspondence<kDof>>& correspondences,
-                           const Step<kDof>& start_sigma, double least_sigma_m) {
+                           const Square<kDof>& before, double least_sigma_m, bool doubted) {
   const auto surfels = by_surfel(correspondences);
   const double point_variance = variance_within(surfels, least_sigma_m);
   const double surfel_variance = variance_between(surfels, point_variance);
   Square<kDof> information = Square<kDof>::Zero();
-  for (const auto& s : surfels)
-    information += s.information / (point_variance + kSharing * surfel_variance * s.weights);
-  return with_start<kDof>(information, start_sigma);
+  Numbering<Voxel> places;
+  std::vector<Step<kDof>> pulls;
+  std::vector<Square<kDof>> told;
+  for (const auto& s : surfels) {
+    const double variance = point_variance + kSharing * surfel_variance * s.weights;
+    information += s.information / variance;
+    if (s.surfel->of_large_cube) told.push_back(s.information / variance);
+    const auto place = places.number(cell_at(s.surfel->mean, 1.0 / kPlace_m));
+    if (place == pulls.size()) pulls.push_back(Step<kDof>::Zero());
+    pulls[place] += s.pull / variance;
+  }
+  if (doubted) {
+    information -= of_few_surfels(information, told, surfels.size(), before);
+    information = believed<kDof>(information, pulls, before);
+  }
+  return with<kDof>(before, information);
 }
 
-template Square<3> covariance_of(const std::vector<Correspondence<3>>&, const Step<3>&, double);
-template Square<6> covariance_of(const std::vector<Correspondence<6>>&, const Step<6>&, double);
+template Square<3> covariance_of(const std::vector<Correspondence<3>>&, const Square<3>&, double,
+                                 bool);
+template Square<6> covariance_of(const std::vector<Correspondence<6>>&, const Square<6>&, double,
+                                 bool);
 
 }  // namespace voxlist::matching

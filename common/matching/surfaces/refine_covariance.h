@@ -11,10 +11,12 @@ namespace voxlist::matching {
 /// each surfel counts with the variance of its mean, both parts of which are read off the
 /// residuals.
 ///
-/// `start_sigma`: the standard deviations that the pose had before. Where the surfaces hold a
-/// direction no better, it stays as unsure. `least_sigma_m`: points scatter at least this much.
+/// `before`: the covariance that the pose had before. Where the surfaces hold a direction no
+/// better, it stays as unsure. `doubted`: surfaces may not be what they seem, as in maps of few
+/// points; what few of them alone tell is not believed, and no more than the places that they are
+/// in agree on. `least_sigma_m`: points scatter at least this much.
 template <int kDof>
 Square<kDof> covariance_of(const std::vector<Correspondence<kDof>>& correspondences,
-                           const Step<kDof>& start_sigma, double least_sigma_m);
+                           const Square<kDof>& before, double least_sigma_m, bool doubted);
 
 }  // namespace voxlist::matching

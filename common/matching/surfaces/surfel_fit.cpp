@@ -14,11 +14,12 @@ bool enough(std::span<const Voxel> voxels, const SurfelConfig& config) {
   return voxels.size() >= static_cast<std::size_t>(config.min_voxels);
 }
 
-bool is_surface(const Plane& plane, double resolution_m, const SurfelConfig& config) {
-  if (plane.deviations(0) * resolution_m > config.max_thickness_m) return false;
+CubeShape shape_of(const Plane& plane, double resolution_m, const SurfelConfig& config) {
+  if (plane.deviations(0) * resolution_m > config.max_thickness_m) return CubeShape::kRough;
   // Without the lattice's own thickness a perfect plane would have infinite flatness.
   const double thickness = elementary::hypot(plane.deviations(0), std::sqrt(kLatticeVariance));
-  return plane.deviations(1) >= config.min_flatness * thickness;
+  return plane.deviations(1) >= config.min_flatness * thickness ? CubeShape::kSurface
+                                                                : CubeShape::kTooFew;
 }
 
 // The variance of the direction (rad^2) of a line through n scattered points is the variance across
@@ -29,33 +30,39 @@ double tilt_variance(const Plane& plane, std::size_t voxels) {
   return across / (along * static_cast<double>(voxels));
 }
 
-bool make_surfel(const OccupancyMap& map, const Voxel& lowest, std::span<const Voxel> voxels,
-                 const Plane& plane, const SurfelConfig& config, Surfel& surfel) {
+CubeShape make_surfel(const OccupancyMap& map, const Voxel& lowest, std::span<const Voxel> voxels,
+                      const Plane& plane, const SurfelConfig& config, Surfel& surfel) {
   const double resolution_m = map.occupied.resolution_m();
-  if (!is_surface(plane, resolution_m, config)) return false;
+  const CubeShape shape = shape_of(plane, resolution_m, config);
+  if (shape != CubeShape::kSurface) return shape;
   const Eigen::Vector3d from(lowest.x, lowest.y, lowest.z);
   surfel = {(from + plane.mean + Eigen::Vector3d::Constant(0.5)) * resolution_m, plane.normal,
             tilt_variance(plane, voxels.size())};
   find_side(map, voxels, lowest, surfel);
-  return true;
+  return shape;
 }
 
 }  // namespace
 
-int fit_surfels(const OccupancyMap& map, const Voxel& lowest, std::span<const Voxel> voxels,
-                const SurfelConfig& config, Surfel sides[2]) {
-  if (!enough(voxels, config)) return 0;
+CubeShape fit_surfels(const OccupancyMap& map, const Voxel& lowest, std::span<const Voxel> voxels,
+                      const SurfelConfig& config, Surfel sides[2], int& count) {
+  count = 0;
+  if (!enough(voxels, config)) return CubeShape::kTooFew;
   const Plane plane = fit_plane(voxels);
   const std::optional<double> gap = find_gap(plane, voxels, map.occupied.resolution_m());
-  if (!gap) return make_surfel(map, lowest, voxels, plane, config, sides[0]);
+  if (!gap) {
+    const CubeShape shape = make_surfel(map, lowest, voxels, plane, config, sides[0]);
+    count = shape == CubeShape::kSurface;
+    return shape;
+  }
   std::vector<Voxel> faces[2];
   for (const Voxel& v : voxels) faces[plane.distance(v) < *gap ? 0 : 1].push_back(v);
-  int count = 0;
   for (const auto& face : faces) {
     if (enough(face, config))
-      count += make_surfel(map, lowest, face, fit_plane(face), config, sides[count]);
+      count += make_surfel(map, lowest, face, fit_plane(face), config, sides[count]) ==
+               CubeShape::kSurface;
   }
-  return count;
+  return count > 0 ? CubeShape::kSurface : CubeShape::kTooFew;
 }
 
 }  // namespace voxlist::matching

@@ -7,9 +7,19 @@
 
 namespace voxlist::matching {
 
-/// Fits the surfaces of one cube: none, one, or the two faces of a thin wall, into `sides`; gives
-/// how many. `voxels` are the cube's, counted from `lowest`.
-int fit_surfels(const OccupancyMap& map, const Voxel& lowest, std::span<const Voxel> voxels,
-                const SurfelConfig& config, Surfel sides[2]);
+/// What a cube's voxels are.
+enum class CubeShape {
+  /// One surface, or the two faces of a thin wall.
+  kSurface,
+  /// Too few voxels, or a line of them, as one ring of a laser leaves it: a larger cube may tell.
+  kTooFew,
+  /// Clutter.
+  kRough,
+};
+
+/// Fits the surfaces of one cube, at most two, into `sides`; `count` is how many. `voxels` are the
+/// cube's, counted from `lowest`.
+CubeShape fit_surfels(const OccupancyMap& map, const Voxel& lowest, std::span<const Voxel> voxels,
+                      const SurfelConfig& config, Surfel sides[2], int& count);
 
 }  // namespace voxlist::matching

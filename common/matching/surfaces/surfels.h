@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <deque>
 #include <vector>
@@ -20,6 +21,8 @@ struct Surfel {
   double tilt_variance = 0.0;
   /// Rays are known to have passed on both sides (a thin board), or on neither.
   bool two_sided = true;
+  /// It stands for smaller cubes, which hold too few voxels: a plane through few points.
+  bool of_large_cube = false;
 
   /// Whether a ray from `origin` may have ended at `point` on this side of the surface.
   bool faces(const Eigen::Vector3d& origin, const Eigen::Vector3d& point) const {
@@ -47,8 +50,9 @@ struct SurfelConfig {
 };
 
 /// The flat surfaces of a map: for each cube of voxels that is thin enough one plane, or two where
-/// both faces of a thin wall are in it. Sums of voxel coordinates are integers, so the planes
-/// depend on the map alone.
+/// both faces of a thin wall are in it. Where a cube holds too few voxels for a plane, as where a
+/// laser's rings lie far apart, the plane of a cube twice or four times as wide stands for it. Sums
+/// of voxel coordinates are integers, so the planes depend on the map alone.
 ///
 /// A cube is fitted when it is first asked for (about 2 us), so making one costs nothing; hence one
 /// thread at a time, reading too.
@@ -88,18 +92,24 @@ class SurfelMap {
     bool fitted = false;
     int count = 0;
     Surfel sides[2];
+    // Whose surfels stand for this cube's: its own, or those of a larger one about it.
+    const Cube* speaker = nullptr;
+  };
+  // The cubes of one size, twice that of the level below.
+  struct Level {
+    std::int32_t blocks = 1;  // along a cube's edge
+    Numbering<Voxel> positions;
+    std::deque<Cube> cubes;  // by number of their position; a deque, so that they stay
   };
 
-  Cube& cube_at(const Voxel& position) const;
-  void fit(const Voxel& position, Cube& cube) const;
+  Cube& cube_at(std::size_t level, const Voxel& position) const;
+  void fit(std::size_t level, const Voxel& position, Cube& cube) const;
 
   const OccupancyMap& map_;
   const SurfelConfig config_;
-  std::int32_t blocks_;  // along a cube's edge
-  double cubes_per_m_;
+  double cubes_per_m_;    // smallest ones
   MapRevision revision_;  // of the map that the cubes were fitted in
-  mutable Numbering<Voxel> positions_;
-  mutable std::deque<Cube> cubes_;  // by number of their position; a deque, so that they stay
+  mutable std::array<Level, 3> levels_;
 };
 
 }  // namespace voxlist::matching
