@@ -23,7 +23,7 @@ WindowCount::WindowCount(const WindowMap& map, double cell_m, const MatchPoints&
   }
   for (const auto& p : points.points) {
     const std::int32_t z =
-        cell_at(Eigen::Vector3d(0.0, 0.0, p.z() / 2.0), cells_per_m_).z - map.lowest_layer();
+        cell_at(Eigen::Vector3d(0.0, 0.0, p.z()), 1.0 / map.layer_m()).z - map.lowest_layer();
     if (z < 0 || z >= map.layers()) continue;
     x_m_.push_back(p.x());
     y_m_.push_back(p.y());

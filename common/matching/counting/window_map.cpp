@@ -109,12 +109,12 @@ void WindowMap::list_new_blocks() {
     const Voxel& block = map_.block_position(listed_);
     const std::int32_t x = 2 * block.x, y = 2 * block.y;
     const std::uint32_t number = patch_positions_.number(patch_of(x, y));
-    if (number == patches_.size()) patches_.push_back({{}, block.z, block.z});
+    if (number == patches_.size()) patches_.push_back({{}, layer_of(block), layer_of(block)});
     Patch& patch = patches_[number];
-    patch.lowest_z = std::min(patch.lowest_z, block.z);
-    patch.highest_z = std::max(patch.highest_z, block.z);
+    patch.lowest_z = std::min(patch.lowest_z, layer_of(block));
+    patch.highest_z = std::max(patch.highest_z, layer_of(block));
     patch.blocks.push_back(static_cast<std::uint32_t>(listed_));
-    const bool room_enough = block.z >= lowest_z_ && block.z < lowest_z_ + size_z_;
+    const bool room_enough = layer_of(block) >= lowest_z_ && layer_of(block) < lowest_z_ + size_z_;
     if (!room_enough && ground_.holds({x, y, x + 1, y + 1})) columns_.reset();
   }
 }
@@ -148,8 +148,8 @@ void WindowMap::make_room(const CellRectangle& ground) {
 void WindowMap::mark(const Voxel& block, const VoxelBlock& bits) {
   const std::uint32_t cells = occupied_cells(bits);
   constexpr std::uint32_t kColumns = 0x01010101;
-  const std::int32_t x = 2 * block.x - 1, y = 2 * block.y - 1;
-  std::uint8_t* row = columns_.get() + place(x, y, block.z);
+  const std::int32_t x = 2 * block.x - 1, y = 2 * block.y - 1, z = layer_of(block);
+  std::uint8_t* row = columns_.get() + place(x, y, z);
   // Rows that begin on the block's first row or behind it, with the cells that are new there.
   for (int d = 0; d < 4; ++d) {
     std::uint32_t held;
@@ -159,7 +159,7 @@ void WindowMap::mark(const Voxel& block, const VoxelBlock& bits) {
       const std::int32_t i = std::countr_zero(news) / 8;
       if (x + i >= ground_.low_x && x + i < ground_.end_x && y + d >= ground_.low_y &&
           y + d < ground_.end_y)
-        ++occupied_[counter_of(x + i, y + d, block.z)];
+        ++occupied_[counter_of(x + i, y + d, z)];
     }
     held |= wanted;
     std::memcpy(row + d * std::int64_t{size_x_}, &held, sizeof held);

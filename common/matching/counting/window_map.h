@@ -22,15 +22,20 @@ struct CellRectangle {
 };
 
 /// A map ready for counting overlaps, patch by patch as it is asked for: columns half a block wide
-/// (0.08 m) and a block high (0.16 m) that hold an occupied voxel, or touch the side of one that
-/// does. So the lattice pose next to the true one has nearly all of its points in occupied cells.
+/// (0.08 m) and a block (0.16 m) high, or so many blocks, that hold an occupied voxel, or touch the
+/// side of one that does. So the lattice pose next to the true one has nearly all of its points in
+/// occupied cells, if layers are as high as the scans' rings are apart: planar poses move no point
+/// up or down.
 class WindowMap {
  public:
   /// Cells along the edge of what one load tells.
   static constexpr std::int32_t kTile = 8;
 
-  /// The map must outlive it.
-  explicit WindowMap(const VoxelMap& map) : map_(map), revision_(map.revision()) {}
+  /// Layers are 2^doublings blocks high, at most 2^kMostDoublings. The map must outlive it.
+  explicit WindowMap(const VoxelMap& map, int doublings = 0)
+      : map_(map), doublings_(doublings), revision_(map.revision()) {}
+
+  static constexpr int kMostDoublings = 4;
 
   /// Makes a rectangle of the ground ready. Costs little where most of it is already (about 20 us
   /// for a square of 2.5 m that is new), and sometimes the whole rectangle, when the robot has gone
@@ -44,7 +49,7 @@ class WindowMap {
   bool holds(const CellRectangle& rectangle) const { return columns_ && ground_.holds(rectangle); }
 
   static double cell_m(const VoxelMap& map) { return map.resolution_m() * kBlockEdge / 2; }
-  static double layer_m(const VoxelMap& map) { return map.resolution_m() * kBlockEdge; }
+  double layer_m() const { return map_.resolution_m() * (kBlockEdge << doublings_); }
 
   std::int32_t lowest_layer() const { return lowest_z_; }
   std::int32_t layers() const { return size_z_; }
@@ -79,7 +84,7 @@ class WindowMap {
   // What stands on a square of the ground.
   struct Patch {
     std::vector<std::uint32_t> blocks;
-    std::int32_t lowest_z = 0, highest_z = 0;  // of the blocks
+    std::int32_t lowest_z = 0, highest_z = 0;  // layers of the blocks
     bool ready = false;
   };
   struct Free {
@@ -89,10 +94,12 @@ class WindowMap {
   Patch* find_patch(std::int32_t x, std::int32_t y);
   void list_new_blocks();
   void make_room(const CellRectangle& ground);
+  std::int32_t layer_of(const Voxel& block) const { return block.z >> doublings_; }
   void mark(const Voxel& block, const VoxelBlock& bits);
   std::size_t counter_of(std::int32_t x, std::int32_t y, std::int32_t z) const;
 
   const VoxelMap& map_;
+  const int doublings_;
   std::uint64_t revision_;  // of the map, when it was last told of
   std::size_t listed_ = 0;  // blocks of the map that patches know of
   Numbering<Voxel> patch_positions_;

@@ -5,6 +5,7 @@
 
 #include "voxlist/matching/scan/flat_surfaces.h"
 #include "voxlist/voxels/fast_cell.h"
+#include "voxlist/voxels/numbering.h"
 
 namespace voxlist::matching {
 namespace {
@@ -41,6 +42,10 @@ constexpr double kLeastUpright = 0.05;
 constexpr std::size_t kEnoughToSearch = 300;
 constexpr int kMostDoublings = 3;
 
+// Layers are high enough when this share of the points have company within a column of that width
+// (m): the reach of a window's dilated cells. Both are judgements.
+constexpr double kMostWithCompany = 0.7, kColumn_m = 0.16;
+
 // A reach holds this share of the scan's points: the farthest ones would ask for finer angles than
 // they repay.
 constexpr double kMostOfScan = 0.9;
@@ -73,6 +78,21 @@ double radius_of(const std::vector<Eigen::Vector3f>& points) {
   for (const Eigen::Vector3f& p : points)
     farthest2 = std::max(farthest2, p.head<2>().cast<double>().squaredNorm());
   return std::sqrt(farthest2);
+}
+
+// The share of points that are not alone in their cell.
+double share_with_company(const std::vector<Eigen::Vector3f>& points, double height_m) {
+  Numbering<Voxel> numbers(points.size());
+  std::vector<int> in_cell;
+  for (const Eigen::Vector3f& p : points) {
+    const Voxel column = cell_at(p, 1.0 / kColumn_m), layer = cell_at(p, 1.0 / height_m);
+    const std::uint32_t number = numbers.number({column.x, column.y, layer.z});
+    if (number == in_cell.size()) in_cell.push_back(0);
+    ++in_cell[number];
+  }
+  const auto alone = std::count(in_cell.begin(), in_cell.end(), 1);
+  return 1.0 -
+         static_cast<double>(alone) / static_cast<double>(std::max<std::size_t>(1, points.size()));
 }
 
 // The part, made now if it was not before.
@@ -108,6 +128,15 @@ const MatchPoints& PreparedScan::points() const {
 
 const MatchPoints& PreparedScan::few_points() const {
   return kept(few_points_, [&] { return some_of(points(), kFewPoints); });
+}
+
+int PreparedScan::layer_doublings(double height_m, int most) const {
+  int doublings = 0;
+  while (doublings < most && share_with_company(points().points, height_m) < kMostWithCompany) {
+    height_m *= 2.0;
+    ++doublings;
+  }
+  return doublings;
 }
 
 std::vector<Eigen::Vector3f> PreparedScan::filter_points() const {

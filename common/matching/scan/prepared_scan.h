@@ -48,6 +48,11 @@ class PreparedScan {
   /// For counting in a window, and for a first refinement: some of points(), spread as they are.
   const MatchPoints& few_points() const;
 
+  /// How often a layer of that height (m) is to be doubled, at most `most` times, until most of
+  /// points() have another one above, below or beside them in it: as high as a laser's rings are
+  /// apart, so that the walls of a map of such scans have no holes.
+  int layer_doublings(double height_m, int most) const;
+
   /// For a particle filter, which counts in voxels down to 0.02 m: as points(), from cubes of half
   /// the edge.
   std::vector<Eigen::Vector3f> filter_points() const;
