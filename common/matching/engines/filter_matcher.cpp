@@ -71,6 +71,13 @@ class ParticleFilterMatcher : public Matcher {
     return match;
   }
 
+  Match track(const PreparedScan& scan, const std::optional<PoseWindow>& window,
+              const UncertainPose&) override {
+    Match found = match(scan, window);
+    weigh_on_surfaces(ready().evidence, ready().surfels, scan.few_rays(), found.modes);
+    return found;
+  }
+
   const EvidenceMap& evidence() override { return ready().evidence; }
 
   void map_grew(const ChangedBlocks&) override { ready_.reset(); }

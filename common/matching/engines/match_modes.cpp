@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "voxlist/matching/engines/student.h"
 #include "voxlist/matching/paper/significance.h"
 
 namespace voxlist::matching {
@@ -18,6 +19,24 @@ constexpr double kRankReach_m = 0.04;
 
 bool same_mode(const MatchMode& mode, const Pose2& pose) {
   return distance_m(mode.pose, pose) < kSameMode_m && turn_rad(mode.pose, pose) < kSameMode_rad;
+}
+
+template <class Refine>
+std::vector<MatchMode> refined_by(const std::vector<MatchMode>& candidates, const Refine& refine) {
+  std::vector<MatchMode> modes;
+  for (MatchMode mode : candidates) {
+    const Refinement refinement = refine(mode.pose);
+    mode.pose = refinement.pose;
+    mode.covariance = refinement.covariance;
+    mode.inlier_ratio = refinement.inlier_ratio;
+    if (!holds(modes, mode.pose)) modes.push_back(mode);
+  }
+  return modes;
+}
+
+// A prior as a pose so far from it has it, if errors have Student's distribution.
+UncertainPose loosened(const UncertainPose& prior, const Pose2& pose) {
+  return {prior.pose, prior.covariance * student_variance(mahalanobis2(pose, prior))};
 }
 
 }  // namespace
@@ -46,15 +65,16 @@ bool holds(const std::vector<MatchMode>& modes, const Pose2& pose) {
 std::vector<MatchMode> refined(const SurfelMap& surfels, const RayPoints& points,
                                const std::vector<MatchMode>& candidates,
                                const RefineConfig& config) {
-  std::vector<MatchMode> modes;
-  for (MatchMode mode : candidates) {
-    const Refinement refinement = refine(surfels, points, mode.pose, config);
-    mode.pose = refinement.pose;
-    mode.covariance = refinement.covariance;
-    mode.inlier_ratio = refinement.inlier_ratio;
-    if (!holds(modes, mode.pose)) modes.push_back(mode);
-  }
-  return modes;
+  return refined_by(candidates,
+                    [&](const Pose2& start) { return refine(surfels, points, start, config); });
+}
+
+std::vector<MatchMode> refined(const SurfelMap& surfels, const RayPoints& points,
+                               const std::vector<MatchMode>& candidates, const UncertainPose& prior,
+                               const RefineConfig& config) {
+  return refined_by(candidates, [&](const Pose2& start) {
+    return refine(surfels, points, start, loosened(prior, start), config);
+  });
 }
 
 void rank(const EvidenceMap& map, std::span<const ScanRay> rays, std::vector<MatchMode>& modes) {
@@ -64,6 +84,14 @@ void rank(const EvidenceMap& map, std::span<const ScanRay> rays, std::vector<Mat
   }
   std::stable_sort(modes.begin(), modes.end(),
                    [](const auto& a, const auto& b) { return a.support > b.support; });
+}
+
+void weigh_on_surfaces(const EvidenceMap& map, const SurfelMap& surfels,
+                       std::span<const ScanRay> rays, std::vector<MatchMode>& modes) {
+  for (MatchMode& mode : modes) {
+    mode.evidence = map.on_surfaces(mode.pose, rays, surfels);
+    mode.support = support_of(mode.evidence);
+  }
 }
 
 double log10_significance(std::int64_t volume, std::int64_t occupied, std::size_t points,

@@ -26,8 +26,19 @@ std::vector<MatchMode> refined(const SurfelMap& surfels, const RayPoints& points
                                const std::vector<MatchMode>& candidates,
                                const RefineConfig& config = {});
 
+/// The same where a prior is known. Candidates that it hardly allows are taken for what they are:
+/// it holds these less, as where wheels slipped.
+std::vector<MatchMode> refined(const SurfelMap& surfels, const RayPoints& points,
+                               const std::vector<MatchMode>& candidates, const UncertainPose& prior,
+                               const RefineConfig& config = {});
+
 /// Weighs modes by a scan's rays, and sorts them by their support, the best first.
 void rank(const EvidenceMap& map, std::span<const ScanRay> rays, std::vector<MatchMode>& modes);
+
+/// Weighs modes by a scan's rays and the map's surfaces (EvidenceMap::on_surfaces); their order
+/// stays.
+void weigh_on_surfaces(const EvidenceMap& map, const SurfelMap& surfels,
+                       std::span<const ScanRay> rays, std::vector<MatchMode>& modes);
 
 /// log10 significance of the best of `poses` poses (paper, section IV): `occupied` of `volume`
 /// cells, and an overlap of that many of the points.

@@ -2,6 +2,7 @@
 
 #include "voxlist/matching/engines/filter_matcher.h"
 #include "voxlist/matching/engines/global_matcher.h"
+#include "voxlist/matching/engines/match_modes.h"
 #include "voxlist/matching/engines/window_matcher.h"
 
 namespace voxlist::matching {
@@ -14,6 +15,13 @@ class SearchMatcher : public Matcher {
 
   Match match(const PreparedScan& scan, const std::optional<PoseWindow>& window) override {
     return window ? window_.match(scan, *window) : global_.match(scan, evidence());
+  }
+
+  Match track(const PreparedScan& scan, const std::optional<PoseWindow>& window,
+              const UncertainPose& prior) override {
+    Match match = window ? window_.track(scan, *window, prior) : global_.match(scan, evidence());
+    weigh_on_surfaces(evidence(), surfels_, scan.few_rays(), match.modes);
+    return match;
   }
 
   Match match_rivals(const PreparedScan& scan) override {

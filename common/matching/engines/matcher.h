@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "voxlist/geometry/uncertain_pose.h"
 #include "voxlist/matching/scan/prepared_scan.h"
 #include "voxlist/matching/search/pose_window.h"
 #include "voxlist/matching/search/search_result.h"
@@ -65,8 +66,8 @@ struct MatchMode {
   double overlap_ratio = 0.0;
   /// Points that lie on the map's surfaces after refinement, as a share, 0..1.
   double inlier_ratio = 0.0;
-  /// What the map says to few_rays() at the pose, and how much that speaks for it. Only after a
-  /// search of the whole map.
+  /// What the map says to few_rays() at the pose, and how much that speaks for it. Not after a
+  /// match in a window without a prior.
   Evidence evidence;
   double support = 0.0;
 };
@@ -94,7 +95,13 @@ class Matcher {
   /// The modes of the pose of a scan (in base) within the window, or in the whole map without one.
   virtual Match match(const PreparedScan& scan, const std::optional<PoseWindow>& window) = 0;
 
-  /// The same in the whole map, slower, with modes that overlap a good deal less: what else there
+  /// The modes within a window round `prior`, what is known by the motion since an earlier scan; in
+  /// the whole map without one. In a window, the prior holds a pose where the map's surfaces do
+  /// not, and is one of the candidates. Modes are weighed by on_surfaces().
+  virtual Match track(const PreparedScan& scan, const std::optional<PoseWindow>& window,
+                      const UncertainPose& prior) = 0;
+
+  /// As match() in the whole map, slower, with modes that overlap a good deal less: what else there
   /// is where one stands alone.
   virtual Match match_rivals(const PreparedScan& scan) { return match(scan, std::nullopt); }
 

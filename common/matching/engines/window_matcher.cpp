@@ -12,6 +12,10 @@ namespace {
 // what the best does, and poses nearer than this distance and turn are one mode.
 constexpr SearchConfig kModes{.mode_ratio = 0.9, .mode_distance_m = 0.3, .mode_turn_rad = 0.1};
 
+// As rivals of a tracked pose count modes that overlap so much less: the more they are, the surer
+// it is that none was overlooked, and the longer it takes.
+constexpr SearchConfig kRivals{.mode_ratio = 0.8, .mode_distance_m = 0.3, .mode_turn_rad = 0.1};
+
 // A first refinement ends at steps of this (m) and leaves a millimetre or two to a second one.
 constexpr RefineConfig kRough{.converged_m = 1e-3};
 
@@ -41,29 +45,72 @@ void refine_contenders(const SurfelMap& surfels, const MatchPoints& points,
 }  // namespace
 
 WindowMatcher::WindowMatcher(const OccupancyMap& map, const SurfelMap& surfels)
-    : surfels_(surfels), cell_m_(WindowMap::cell_m(map.occupied)), window_map_(map.occupied) {}
+    : map_(map.occupied), surfels_(surfels), cell_m_(WindowMap::cell_m(map.occupied)) {}
+
+void WindowMatcher::map_grew(const ChangedBlocks& grown) {
+  for (const auto& map : maps_)
+    if (map) map->map_grew(grown.occupied);
+}
 
 Match WindowMatcher::match(const PreparedScan& scan, const PoseWindow& window) {
   if (scan.points().points.size() < kFewestMatchPoints) return {};
-  const MatchPoints& counted = scan.few_points();
-  const CellRectangle ground = needed_ground(cell_m_, counted.radius_m, window);
-  window_map_.hold(ground);
-  const SearchResult found = search_window(window_map_, cell_m_, counted, window, kModes);
+  WindowMap& map = map_for(scan);
+  const SearchResult found = search(map, scan, window, kModes);
   Match match(found);
   if (found.modes.empty()) return match;
   // Most of the way with few points: many candidates go to the same place.
-  match.modes = refined(surfels_, counted, candidates_of(found, counted.points.size()), kRough);
+  const MatchPoints& few = scan.few_points();
+  match.modes = refined(surfels_, few, candidates_of(found, few.points.size()), kRough);
   sort_by_inliers(match.modes);
   refine_contenders(surfels_, scan.points(), match.modes);
-  match.significance_log10 = significance_log10(ground, counted.points.size(), found);
+  match.significance_log10 = significance_log10(map, scan, window, found);
   return match;
 }
 
-double WindowMatcher::significance_log10(const CellRectangle& ground, std::size_t points,
+Match WindowMatcher::track(const PreparedScan& scan, const PoseWindow& window,
+                           const UncertainPose& prior) {
+  if (scan.points().points.size() < kFewestMatchPoints) return {};
+  WindowMap& map = map_for(scan);
+  const SearchResult found = search(map, scan, window, kRivals);
+  Match match(found);
+  const MatchPoints& few = scan.few_points();
+  auto candidates = candidates_of(found, few.points.size());
+  candidates.push_back(candidate(prior.pose, overlap_ratio_at(map, scan, prior.pose)));
+  match.modes =
+      refined(surfels_, scan.points(), refined(surfels_, few, candidates, prior, kRough), prior);
+  if (!found.modes.empty()) match.significance_log10 = significance_log10(map, scan, window, found);
+  return match;
+}
+
+WindowMap& WindowMatcher::map_for(const PreparedScan& scan) {
+  const auto doublings = static_cast<std::size_t>(
+      scan.layer_doublings(kBlockEdge * map_.resolution_m(), WindowMap::kMostDoublings));
+  auto& map = maps_[doublings];
+  if (!map) map = std::make_unique<WindowMap>(map_, static_cast<int>(doublings));
+  return *map;
+}
+
+SearchResult WindowMatcher::search(WindowMap& map, const PreparedScan& scan,
+                                   const PoseWindow& window, const SearchConfig& config) const {
+  map.hold(needed_ground(cell_m_, scan.few_points().radius_m, window));
+  return search_window(map, cell_m_, scan.few_points(), window, config);
+}
+
+double WindowMatcher::overlap_ratio_at(WindowMap& map, const PreparedScan& scan,
+                                       const Pose2& pose) const {
+  const SearchResult found = search(map, scan, {pose, 0.0, 0.0, 0.0}, kModes);
+  return found.modes.empty() ? 0.0
+                             : static_cast<double>(found.modes.front().overlap) /
+                                   static_cast<double>(scan.few_points().points.size());
+}
+
+double WindowMatcher::significance_log10(const WindowMap& map, const PreparedScan& scan,
+                                         const PoseWindow& window,
                                          const SearchResult& found) const {
-  const WindowMap::Count count = window_map_.count(ground);
-  return log10_significance(count.cells, count.occupied, points, found.modes.front().overlap,
-                            found.lattice_poses);
+  const WindowMap::Count count =
+      map.count(needed_ground(cell_m_, scan.few_points().radius_m, window));
+  return log10_significance(count.cells, count.occupied, scan.few_points().points.size(),
+                            found.modes.front().overlap, found.lattice_poses);
 }
 
 }  // namespace voxlist::matching

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <memory>
+
 #include "voxlist/matching/counting/window_map.h"
 #include "voxlist/matching/engines/matcher.h"
 #include "voxlist/matching/surfaces/surfels.h"
@@ -15,16 +18,26 @@ class WindowMatcher {
 
   Match match(const PreparedScan& scan, const PoseWindow& window);
 
+  /// As Matcher::track().
+  /// The modes are not weighed yet.
+  Match track(const PreparedScan& scan, const PoseWindow& window, const UncertainPose& prior);
+
   /// These blocks of the map have gained voxels.
-  void map_grew(const ChangedBlocks& grown) { window_map_.map_grew(grown.occupied); }
+  void map_grew(const ChangedBlocks& grown);
 
  private:
-  double significance_log10(const CellRectangle& ground, std::size_t points,
-                            const SearchResult& found) const;
+  WindowMap& map_for(const PreparedScan& scan);
+  SearchResult search(WindowMap& map, const PreparedScan& scan, const PoseWindow& window,
+                      const SearchConfig& config) const;
+  double overlap_ratio_at(WindowMap& map, const PreparedScan& scan, const Pose2& pose) const;
+  double significance_log10(const WindowMap& map, const PreparedScan& scan,
+                            const PoseWindow& window, const SearchResult& found) const;
 
+  const VoxelMap& map_;
   const SurfelMap& surfels_;
   const double cell_m_;
-  WindowMap window_map_;
+  // By how often their layers are doubled, those that were asked for.
+  std::array<std::unique_ptr<WindowMap>, WindowMap::kMostDoublings + 1> maps_;
 };
 
 }  // namespace voxlist::matching

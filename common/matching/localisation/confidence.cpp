@@ -8,9 +8,9 @@
 namespace voxlist::matching {
 namespace {
 
-// Fitted by tests/bench/fit_confidence.py on single scans of several kinds of buildings. Places are
-// compared by powers of what they leave unexplained: where one explains nearly all, a hundredth
-// less counts more than where all leave much.
+// Fitted by tests/bench/fits/fit_confidence.py on single scans of several kinds of buildings.
+// Places are compared by powers of what they leave unexplained: where one explains nearly all, a
+// hundredth less counts more than where all leave much.
 constexpr double kPlacePower = 27.0, kNearSlack = 0.05;
 constexpr double kFoundBias = -11.5, kFoundSupport = 4.6, kFoundRival = 6.9;
 constexpr double kEvenSlack = 0.02;

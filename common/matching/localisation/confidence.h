@@ -34,7 +34,7 @@ struct ScanWeight {
 LogOdds log_odds_of(const PoseSupport& support, double rival, const ScanWeight& weight);
 
 /// Probability of each hypothesis that it is the right one; what is missing to 1 is for none of
-/// them. Coefficients were fitted by tests/bench/fit_confidence.py.
+/// them. Coefficients were fitted by tests/bench/fits/fit_confidence.py.
 std::vector<double> probabilities(std::span<const LogOdds> hypotheses);
 
 }  // namespace voxlist::matching

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "voxlist/geometry/pose.h"
+#include "voxlist/matching/engines/matcher.h"
 #include "voxlist/matching/localisation/confidence.h"
 
 namespace voxlist::matching {
@@ -57,5 +58,8 @@ struct Localisation {
 
   bool tracking() const { return state == LocalisationState::kTracking; }
 };
+
+/// The modes that an engine found, as yet without a state.
+Localisation from_match(const PreparedScan& scan, const Match& match);
 
 }  // namespace voxlist::matching

@@ -1,28 +1,44 @@
 #include "voxlist/matching/localisation/localiser.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "voxlist/matching/localisation/lost_search.h"
 #include "voxlist/matching/localisation/pose_track.h"
+#include "voxlist/matching/localisation/reach_match.h"
 
 namespace voxlist::matching {
 namespace {
 
-// Confidence told while tracking: the pose goes on explaining what the robot sees, after a search
-// that was sure (0.996). It is a constant, whatever the scan, and chosen by judgement.
-constexpr double kTracked = 0.99;
+// One of the places in reach is probably right when they have this probability together: as where
+// the whole map is searched.
+constexpr double kLikely = 0.2;
+// A pose is told as one only where it is known to so much (m), as a standard deviation in the worst
+// direction: about a robot's size.
+constexpr double kExact_m = 0.3;
 
-// A doubtful track is lost when a pose at least this far away (m) has so much more support. Within
-// 0.5 m a better pose had been taken for the same, and 3 of 268 robots that were carried away
-// stayed TRACKING at a wrong one; at 0.2 m none of 189 did.
-constexpr double kElsewhere_m = 0.2, kBetter = 0.03;
+bool is_exact(const Eigen::Matrix3d& covariance) {
+  const Eigen::Matrix2d shifts = covariance.topLeftCorner<2, 2>();
+  const double mean = shifts.trace() / 2.0;
+  const double worst = mean + std::sqrt(std::max(0.0, mean * mean - shifts.determinant()));
+  return worst < kExact_m * kExact_m;
+}
+
+LocalisationState state_of(const Localisation& tracked) {
+  double any = 0.0;
+  for (const PoseMode& mode : tracked.modes) any += mode.probability;
+  if (any < kLikely) return LocalisationState::kLost;
+  const bool told =
+      tracked.confidence >= kSureInReach && is_exact(tracked.modes.front().covariance);
+  return told ? LocalisationState::kTracking : LocalisationState::kAmbiguous;
+}
 
 // The cloud that begins a map is at the map's origin.
-Localisation origin_of_map(const Cloud& cloud) {
+Localisation origin_of_map(const PreparedScan& scan) {
   Localisation result;
-  result.utime_us = cloud.utime_us;
-  if (cloud.points.size() < kFewestMatchPoints) return result;
+  result.utime_us = scan.cloud().utime_us;
+  if (scan.in_range().size() < kFewestMatchPoints) return result;
   result.state = LocalisationState::kTracking;
   result.modes.push_back({Pose2{}, Eigen::Matrix3d::Zero(), 0.0, {}, 1.0});
   result.confidence = 1.0;
@@ -94,17 +110,26 @@ Localisation Localiser::locate(const Cloud& cloud) {
 
 Localisation Localiser::localise(const PreparedScan& scan,
                                  const std::optional<Pose2>& T_odom_base) {
-  if (!map_.empty() && track_) {
-    if (const auto tracked = track(scan, T_odom_base)) return *tracked;
-    track_.reset();
+  if (map_.empty()) return begin(scan, T_odom_base);
+  if (track_) {
+    const Localisation tracked = track(scan, T_odom_base);
+    if (tracked.tracking()) search_.reset();
+    if (tracked.confidence >= kSureInReach || !track_->doubtful()) return tracked;
   }
-  const Localisation result =
-      map_.empty() ? origin_of_map(scan.cloud()) : search(scan, T_odom_base);
+  const Localisation result = search(scan, T_odom_base);
   if (!result.tracking()) return result;
   const PoseMode& mode = result.modes.front();
-  const auto support = map_.empty() ? std::nullopt : std::optional(mode.support.even);
-  track_ = std::make_unique<PoseTrack>(scan.cloud(), T_odom_base, mode.T_map_base, support);
+  track_ = std::make_unique<PoseTrack>(scan.cloud().utime_us, T_odom_base,
+                                       UncertainPose{mode.T_map_base, mode.covariance}, limits());
   search_.reset();
+  return result;
+}
+
+Localisation Localiser::begin(const PreparedScan& scan, const std::optional<Pose2>& T_odom_base) {
+  const Localisation result = origin_of_map(scan);
+  if (result.tracking())
+    track_ =
+        std::make_unique<PoseTrack>(scan.cloud().utime_us, T_odom_base, UncertainPose{}, limits());
   return result;
 }
 
@@ -113,31 +138,14 @@ Localisation Localiser::search(const PreparedScan& scan, const std::optional<Pos
   return search_->add(scan, T_odom_base, matcher());
 }
 
-std::optional<Localisation> Localiser::track(const PreparedScan& scan,
-                                             const std::optional<Pose2>& T_odom_base) {
-  const Match match = track_->match(matcher(), scan, T_odom_base, limits());
-  if (match.modes.empty()) return std::nullopt;
-  const MatchMode& mode = match.modes.front();
-  const Evidence seen = matcher().evidence().at(mode.pose, scan.few_rays());
-  const PoseTrack::Judgement judgement = track_->judge(scan.cloud(), T_odom_base, mode, seen);
-  if (judgement.verdict == PoseTrack::Verdict::kLost) return std::nullopt;
-  if (judgement.verdict == PoseTrack::Verdict::kDoubtful &&
-      fits_better_elsewhere(scan, mode.pose, judgement.worth))
-    return std::nullopt;
-  track_->advance(scan.cloud(), T_odom_base, mode, seen);
-  Localisation result = from_match(scan, match);
-  result.state = LocalisationState::kTracking;
-  result.confidence = result.modes.front().probability = kTracked;
+Localisation Localiser::track(const PreparedScan& scan, const std::optional<Pose2>& T_odom_base) {
+  Localisation result = track_->match(matcher(), scan, T_odom_base);
+  track_->doubt(result.confidence);
+  result.state = state_of(result);
+  if (result.confidence < kSureInReach) return result;
+  const PoseMode& mode = result.modes.front();
+  track_->advance(scan.cloud().utime_us, T_odom_base, {mode.T_map_base, mode.covariance});
   return result;
-}
-
-bool Localiser::fits_better_elsewhere(const PreparedScan& scan, const Pose2& pose, double worth) {
-  const Match match = matcher().match(scan, std::nullopt);
-  const EvidenceMap& evidence = matcher().evidence();
-  return std::any_of(match.modes.begin(), match.modes.end(), [&](const MatchMode& mode) {
-    return distance_m(mode.pose, pose) > kElsewhere_m &&
-           support_of(evidence.at(mode.pose, scan.few_rays())) > worth + kBetter;
-  });
 }
 
 }  // namespace voxlist::matching

@@ -35,10 +35,12 @@ struct LocaliserConfig {
 };
 
 /// Finds each cloud's pose in a map: tracks from the last pose and the motion since, and searches
-/// the whole map when it is lost. As long as one scan cannot tell where it is, candidates live on
-/// over the next scans and the motion between them (AMBIGUOUS), until one of them is sure; then it
-/// tracks. A track is given up when its pose no longer explains what the robot sees. Time is the
-/// clouds' own. Use from one thread.
+/// the whole map when it is lost. A scan that fits nowhere in reach is LOST by itself; after two of
+/// them the robot may be elsewhere, and the whole map is searched. As long as one scan cannot tell
+/// where it is, candidates live on over the next scans and the motion between them (AMBIGUOUS),
+/// until one of them is sure; then it tracks. AMBIGUOUS with one mode: in one direction nothing in
+/// sight tells where it is, and the mode's covariance says which. Time is the clouds' own. Use from
+/// one thread.
 class Localiser {
  public:
   /// The map must outlive the localiser. It may change between two calls: the localiser notices by
@@ -66,11 +68,9 @@ class Localiser {
   void follow_map();
   Matcher& matcher();
   Localisation localise(const PreparedScan& scan, const std::optional<Pose2>& T_odom_base);
-  // Nothing when the track is lost.
-  std::optional<Localisation> track(const PreparedScan& scan,
-                                    const std::optional<Pose2>& T_odom_base);
+  Localisation begin(const PreparedScan& scan, const std::optional<Pose2>& T_odom_base);
+  Localisation track(const PreparedScan& scan, const std::optional<Pose2>& T_odom_base);
   Localisation search(const PreparedScan& scan, const std::optional<Pose2>& T_odom_base);
-  bool fits_better_elsewhere(const PreparedScan& scan, const Pose2& pose, double worth);
 
   const OccupancyMap& map_;
   const LocaliserConfig config_;

@@ -6,14 +6,9 @@
 #include "voxlist/matching/engines/matcher.h"
 #include "voxlist/matching/localisation/hypotheses.h"
 #include "voxlist/matching/localisation/localisation.h"
+#include "voxlist/matching/localisation/pose_track.h"
 
 namespace voxlist::matching {
-
-/// Fastest motion to expect where nothing measures it.
-struct MotionLimits {
-  double speed_mps = 0.0;
-  double turn_rate_radps = 0.0;
-};
 
 /// Finds a robot that does not know where it is: searches the whole map for each scan, and follows
 /// the hypotheses over the motion between scans, by odometry or from scan to scan, until one of
@@ -40,8 +35,5 @@ class LostSearch {
   Cloud last_;
   std::optional<Pose2> T_odom_last_;
 };
-
-/// The modes that an engine found, as yet without a state.
-Localisation from_match(const PreparedScan& scan, const Match& match);
 
 }  // namespace voxlist::matching

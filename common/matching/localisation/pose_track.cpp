@@ -1,162 +1,157 @@
 #include "voxlist/matching/localisation/pose_track.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "voxlist/geometry/elementary.h"
+#include "voxlist/matching/localisation/reach_match.h"
 
 namespace voxlist::matching {
 namespace {
 
-// A track is lost below this overlap ratio of the search in its window: the scan is of another
-// place, or nearly blind. Chosen by judgement. Lower: a pose that explains nothing goes on.
-constexpr double kLeastOverlapRatio = 0.15;
-// A track is lost when the inlier ratio falls below this share of the last scan's. Chosen by
-// judgement; the same.
-constexpr double kLeastShare = 0.4;
-// The window grows to all that motion allows when the inlier ratio falls below this share of the
-// last scan's. Never (0): 15 of the 89 scans of a hall without odometry are placed. Higher: two
-// searches where one would do.
-constexpr double kDoubtfulShare = 0.8;
+// Odometry errs by these standard deviations (m, rad), and by these shares of the way and of the
+// turn: wheels slip, their size and the laser's mount are known to a few per cent.
+constexpr double kOdometry_m = 0.02, kOdometryShare = 0.05;
+constexpr double kOdometry_rad = 0.01, kOdometryTurnShare = 0.05, kOdometry_rad_per_m = 0.01;
 
-// A pose is doubtful when its support falls so far below the running mean, and lost when it falls
-// farther. Doubt costs a search of the whole map, 20 to 40 ms, and ends the track only when another
-// pose is better (localiser.cpp); it was lowered from 0.08, with which a robot that was carried
-// into a place alike went on tracking. Lower: more searches; higher: a robot that was carried away
-// is not noticed.
-constexpr double kDoubtfulDrop = 0.06, kLostDrop = 0.35;
-// Share of the running mean that a new scan leaves in place: it is the mean of about the last
-// three. Higher: the mean of a good place casts doubt on a poorer one for longer.
-constexpr double kSupportMemory = 0.7;
-// Support means something where the map knows this share of the rays' ends, as occupied or free.
-// Chosen by judgement. Higher: nothing casts doubt at the edge of a map; lower: a few rays do.
-constexpr double kKnownShare = 0.3;
+// Without odometry, the last step goes on but for what the robot's speed and turn rate change by,
+// as a standard deviation: at least so much (m/s^2, rad/s^2), more where lately it was more.
+constexpr double kLeastAcceleration = 0.1, kLeastTurnAcceleration = 0.1;
+// What the robot's last changes of speed count for, beside the newest one.
+constexpr double kMemory = 0.8;
+constexpr double kSteady_m = 0.02, kSteady_rad = 0.02;
 
-// How far a prediction may be off (m, rad), beside a share of the motion itself: what the speed of
-// a robot changes from scan to scan without odometry. Smaller: the pose lies outside, and takes a
-// second search in the wide window (0.1 m and 0.05 rad still place all 89 scans of the hall);
-// larger: time grows with the window's area.
-constexpr double kWindow_m = 0.4, kWindow_rad = 0.3;
-constexpr double kWindowShare = 0.2;
-// Steps in time count as at least and at most this long (s) when all that motion allows is worked
-// out: two clouds may come together, and after a long gap the window would be the whole floor.
-constexpr double kShortestStep_s = 0.1, kLongestStep_s = 3.0;
+// A step says nothing of a time that is so many times as long.
+constexpr double kLongestGuess = 5.0;
 
-// A heavy-tailed prior on the distance from the prediction: decides between poses that fit alike.
-// Its weight is an inlier ratio, of which 0.7 times is taken off a pose one scale (m, rad) away,
-// and 2.3 times one three scales away. Odometry is worth more than a guess from the last step, the
-// less the farther the robot went. With a guess's weight of 0 all 89 scans of the hall are placed
-// as they are, with 0.5 only 16: a wrong guess outweighs the scan. Lighter: a robot among alike
-// shelves may jump between them.
-struct Prior {
-  double weight, scale_m, scale_rad;
-};
-constexpr Prior kGuess{0.08, 0.5, 0.5}, kOdometry{0.2, 0.1, 0.1};
-// Odometry's scale grows by this share of the way (m) since the last scan: wheels that slip are off
-// by a tenth of it.
-constexpr double kOdometryShare = 0.1;
-// The most support that it takes to believe an unlikely motion: wheels slip. Above kDoubtfulDrop,
-// so that a motion which odometry denies casts doubt by itself; a carried robot had gone on
-// tracking without that. Higher: poses that a slip explains are called lost elsewhere.
-constexpr double kMostSurprise = 0.1;
+// Steps in time count as at least so long (s): two clouds may come together.
+constexpr double kShortestStep_s = 0.1;
 
-double best_inlier_ratio(const Match& match) {
-  return match.modes.empty() ? 0.0 : match.modes.front().inlier_ratio;
+// Where nothing is found where it should be, and no wheels were asked, the robot has moved
+// otherwise than before with this probability.
+constexpr double kSudden = 0.5;
+
+// Before a scan is looked at, the robot is in reach of the prediction with this probability, if it
+// was so at the scan before: nobody has carried it, and the scan shows it. A judgement.
+constexpr double kStays = 0.995;
+// Below this the robot may well be elsewhere: after two bad scans.
+constexpr double kDoubtful = 0.95;
+// A scan that fits nowhere in reach is bad, rather than the robot elsewhere, with this probability.
+// A judgement: after twenty such scans in a row, half of the belief is gone.
+constexpr double kBadScan = 0.97;
+
+// The farthest that a robot goes is so many standard deviations of a motion that nothing tells.
+constexpr double kReachSigmas = 3.0;
+
+Eigen::Matrix3d diagonal(double sigma_m, double sigma_rad) {
+  return Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad).asDiagonal();
 }
 
-// Adds what a wider window gave.
-void add(const Match& wide, Match& match) {
-  match.modes.insert(match.modes.end(), wide.modes.begin(), wide.modes.end());
-  match.certified = match.certified && wide.certified;
-  match.complete = match.complete && wide.complete;
-  match.poses_examined += wide.poses_examined;
-}
-
-bool map_knows(const Evidence& e) { return e.hits + e.misses >= kKnownShare * e.points; }
+double length_m(const Pose2& motion) { return distance_m({}, motion); }
 
 }  // namespace
 
-PoseTrack::PoseTrack(const Cloud& cloud, const std::optional<Pose2>& T_odom_base, const Pose2& pose,
-                     const std::optional<double>& support)
-    : utime_us_(cloud.utime_us), pose_(pose), T_odom_base_(T_odom_base), support_(support) {}
+PoseTrack::PoseTrack(std::int64_t utime_us, const std::optional<Pose2>& T_odom_base,
+                     const UncertainPose& pose, const MotionLimits& limits)
+    : limits_(limits), utime_us_(utime_us), T_odom_base_(T_odom_base), pose_(pose) {}
 
-Pose2 PoseTrack::predict(std::int64_t now_us, const std::optional<Pose2>& T_odom_now) const {
-  if (T_odom_base_ && T_odom_now) return pose_ * (T_odom_base_->inverse() * *T_odom_now);
-  const double dt_s = static_cast<double>(now_us - utime_us_) * 1e-6;
-  // Only over a step about as long as the last: a pause, now or then, says nothing of it.
-  const bool alike = dt_s > 0.5 * step_s_ && dt_s < 2.0 * step_s_;
-  return alike ? pose_ * step_ : pose_;
+UncertainPose PoseTrack::predict(std::int64_t now_us,
+                                 const std::optional<Pose2>& T_odom_now) const {
+  const UncertainPose step = motion(now_us, T_odom_now);
+  UncertainPose predicted = pose_ * step;
+  if (by_odometry(T_odom_now)) return predicted;
+  // A guess's errors go on from step to step: what one was off, the next is off as well. So errors
+  // add up, not their squares.
+  const double before = std::sqrt(pose_.covariance.topLeftCorner<2, 2>().trace()),
+               now = std::sqrt(step.covariance.topLeftCorner<2, 2>().trace());
+  const Eigen::Matrix3d own = predicted.covariance - (pose_ * UncertainPose{step.pose}).covariance;
+  if (before > 0.0)
+    predicted.covariance =
+        (1.0 + now / before) * (predicted.covariance - own) + (1.0 + before / now) * own;
+  return predicted;
 }
 
-double PoseTrack::surprise(const Pose2& pose, const Pose2& predicted, bool odometry_now) const {
-  Prior prior = kGuess;
-  if (T_odom_base_ && odometry_now) {
-    prior = kOdometry;
-    prior.scale_m += kOdometryShare * distance_m(predicted, pose_);
+UncertainPose PoseTrack::motion(std::int64_t now_us, const std::optional<Pose2>& T_odom_now) const {
+  if (!by_odometry(T_odom_now)) return guessed_motion(seconds_to(now_us));
+  const Pose2 way = T_odom_base_->inverse() * *T_odom_now;
+  const double sigma_m = kOdometry_m + kOdometryShare * length_m(way);
+  const double sigma_rad = kOdometry_rad + kOdometryTurnShare * std::abs(way.yaw_rad) +
+                           kOdometry_rad_per_m * length_m(way);
+  return {way, diagonal(sigma_m, sigma_rad)};
+}
+
+UncertainPose PoseTrack::guessed_motion(double dt_s) const {
+  UncertainPose unknown = unknown_motion(dt_s);
+  if (!step_ || step_s_ <= 0.0 || dt_s > kLongestGuess * step_s_) return unknown;
+  const double share = dt_s / step_s_;
+  const UncertainPose goes_on{
+      part_of(step_->pose, share),
+      share * share * step_->covariance + diagonal(kSteady_m + acceleration_ * dt_s * dt_s,
+                                                   kSteady_rad + turn_acceleration_ * dt_s * dt_s)};
+  return goes_on.covariance(0, 0) < unknown.covariance(0, 0) ? goes_on : unknown;
+}
+
+double PoseTrack::seconds_to(std::int64_t now_us) const {
+  return std::max(static_cast<double>(now_us - utime_us_) * 1e-6, kShortestStep_s);
+}
+
+UncertainPose PoseTrack::unknown_motion(double dt_s) const {
+  return {{},
+          diagonal(limits_.speed_mps * dt_s / kReachSigmas,
+                   std::min(limits_.turn_rate_radps * dt_s, std::numbers::pi) / kReachSigmas)};
+}
+
+Localisation PoseTrack::match(Matcher& matcher, const PreparedScan& scan,
+                              const std::optional<Pose2>& T_odom_base) const {
+  const UncertainPose predicted = predict(scan.cloud().utime_us, T_odom_base);
+  ReachMatch reach = match_in_reach(matcher, scan, predicted, in_reach_);
+  if (reach.best() < kSureInReach && !by_odometry(T_odom_base)) {
+    const UncertainPose anywhere = pose_ * unknown_motion(seconds_to(scan.cloud().utime_us));
+    if (anywhere.covariance(0, 0) > predicted.covariance(0, 0)) {
+      ReachMatch wider = match_in_reach(matcher, scan, anywhere, kSudden * in_reach_);
+      if (wider.best() > reach.best()) reach = std::move(wider);
+    }
   }
-  const double d = distance_m(pose, predicted) / prior.scale_m,
-               turn = turn_rad(pose, predicted) / prior.scale_rad;
-  return prior.weight * elementary::log1p(d * d + turn * turn);
+  const auto& [match, probability] = reach;
+  Localisation result = from_match(scan, match);
+  for (std::size_t i = 0; i < result.modes.size(); ++i)
+    result.modes[i].probability = probability[i];
+  if (!probability.empty()) result.confidence = probability.front();
+  return result;
 }
 
-Match PoseTrack::match(Matcher& matcher, const PreparedScan& scan,
-                       const std::optional<Pose2>& T_odom_base, const MotionLimits& limits) const {
-  const Pose2 predicted = predict(scan.cloud().utime_us, T_odom_base);
-  Match match = matcher.match(scan, window(predicted));
-  if (inlier_ratio_ == 0.0 || best_inlier_ratio(match) < kDoubtfulShare * inlier_ratio_)
-    add(matcher.match(scan, widest_window(predicted, scan.cloud().utime_us, limits)), match);
-  const auto score = [&](const MatchMode& mode) {
-    return mode.inlier_ratio - surprise(mode.pose, predicted, T_odom_base.has_value());
-  };
-  const auto best =
-      std::max_element(match.modes.begin(), match.modes.end(),
-                       [&](const auto& a, const auto& b) { return score(a) < score(b); });
-  if (best != match.modes.end()) std::rotate(match.modes.begin(), best, best + 1);
-  return match;
+void PoseTrack::doubt(double right) {
+  in_reach_ = kStays * (right + (1.0 - right) * kBadScan * in_reach_);
 }
 
-// Where a prediction that is about right leaves the robot.
-PoseWindow PoseTrack::window(const Pose2& predicted) const {
-  const double half_m = kWindow_m + kWindowShare * distance_m(predicted, pose_);
-  return {predicted, half_m, half_m, kWindow_rad + kWindowShare * turn_rad(predicted, pose_)};
-}
-
-// All that the robot can have moved.
-PoseWindow PoseTrack::widest_window(const Pose2& predicted, std::int64_t now_us,
-                                    const MotionLimits& limits) const {
-  const double dt_s =
-      std::clamp(static_cast<double>(now_us - utime_us_) * 1e-6, kShortestStep_s, kLongestStep_s);
-  const double half_m = window(predicted).half_x_m + limits.speed_mps * dt_s;
-  return {predicted, half_m, half_m, kWindow_rad + limits.turn_rate_radps * dt_s};
-}
-
-PoseTrack::Judgement PoseTrack::judge(const Cloud& cloud, const std::optional<Pose2>& T_odom_base,
-                                      const MatchMode& mode, const Evidence& evidence) const {
-  const double supported = support_of(evidence);
-  // Only what wheels measured speaks against a motion, not that the last step was another.
-  const double unlikely = T_odom_base_ && T_odom_base
-                              ? surprise(mode.pose, predict(cloud.utime_us, T_odom_base), true)
-                              : 0.0;
-  const double worth = supported - std::min(unlikely, kMostSurprise);
-  if (mode.overlap_ratio < kLeastOverlapRatio || mode.inlier_ratio < kLeastShare * inlier_ratio_)
-    return {Verdict::kLost, worth};
-  if (!support_ || !map_knows(evidence)) return {Verdict::kExplains, worth};
-  if (*support_ - supported > kLostDrop) return {Verdict::kLost, worth};
-  const bool doubtful = *support_ - worth > kDoubtfulDrop;
-  return {doubtful ? Verdict::kDoubtful : Verdict::kExplains, worth};
-}
-
-void PoseTrack::advance(const Cloud& cloud, const std::optional<Pose2>& T_odom_base,
-                        const MatchMode& mode, const Evidence& evidence) {
-  step_ = pose_.inverse() * mode.pose;
-  step_s_ = static_cast<double>(cloud.utime_us - utime_us_) * 1e-6;
-  utime_us_ = cloud.utime_us;
-  pose_ = mode.pose;
+void PoseTrack::advance(std::int64_t utime_us, const std::optional<Pose2>& T_odom_base,
+                        const UncertainPose& pose) {
+  const double dt_s = static_cast<double>(utime_us - utime_us_) * 1e-6;
+  const UncertainPose guess = predict(utime_us, T_odom_base), way = motion(utime_us, T_odom_base);
+  // What the match told of the pose beside the prediction, it told of the step.
+  const Eigen::Matrix3d told = guess.covariance.llt().matrixL().solve(Eigen::Matrix3d::Identity());
+  const Eigen::Matrix3d to_step = Eigen::Matrix3d(way.covariance.llt().matrixL()) * told;
+  if (!by_odometry(T_odom_base) && step_) learn(guess.pose, pose.pose, dt_s);
+  step_ = UncertainPose{pose_.pose.inverse() * pose.pose,
+                        to_step * pose.covariance * to_step.transpose()};
+  step_s_ = dt_s;
+  utime_us_ = utime_us;
   T_odom_base_ = T_odom_base;
-  inlier_ratio_ = mode.inlier_ratio;
-  if (!map_knows(evidence)) return;
-  const double now = support_of(evidence);
-  support_ = support_ ? kSupportMemory * *support_ + (1.0 - kSupportMemory) * now : now;
+  pose_ = pose;
+}
+
+bool PoseTrack::doubtful() const { return in_reach_ < kDoubtful; }
+
+// What the robot's speed and turn rate changed by.
+void PoseTrack::learn(const Pose2& guess, const Pose2& pose, double dt_s) {
+  const double time2 = std::max(dt_s * dt_s, kShortestStep_s * kShortestStep_s);
+  const auto follow = [](double& sigma, double now, double least) {
+    sigma = std::max(least, std::sqrt(kMemory * sigma * sigma + (1.0 - kMemory) * now * now));
+  };
+  follow(acceleration_, distance_m(guess, pose) / time2, kLeastAcceleration);
+  follow(turn_acceleration_, turn_rad(guess, pose) / time2, kLeastTurnAcceleration);
 }
 
 }  // namespace voxlist::matching

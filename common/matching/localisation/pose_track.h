@@ -2,61 +2,72 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "voxlist/geometry/cloud.h"
+#include "voxlist/geometry/uncertain_pose.h"
 #include "voxlist/matching/engines/matcher.h"
-#include "voxlist/matching/localisation/lost_search.h"
-#include "voxlist/matching/surfaces/evidence.h"
+#include "voxlist/matching/localisation/localisation.h"
 
 namespace voxlist::matching {
 
-/// What tracking goes on from: the last pose, the motion since, and how well scans agreed lately.
+/// Fastest motion to expect where nothing measures it.
+struct MotionLimits {
+  double speed_mps = 0.0;
+  double turn_rate_radps = 0.0;
+};
+
+/// The last pose that is known, and what is known of the motion since: by odometry, or by the step
+/// that led there. It outlives scans that fit nowhere: the motion since grows, and so does the
+/// doubt.
 class PoseTrack {
  public:
-  /// Begins at a pose, with what supported it; nothing where there was no map yet.
-  PoseTrack(const Cloud& cloud, const std::optional<Pose2>& T_odom_base, const Pose2& pose,
-            const std::optional<double>& support);
+  /// Begins at a pose.
+  PoseTrack(std::int64_t utime_us, const std::optional<Pose2>& T_odom_base,
+            const UncertainPose& pose, const MotionLimits& limits);
 
-  /// Where the robot should be: by odometry, else by the last step.
-  Pose2 predict(std::int64_t now_us, const std::optional<Pose2>& T_odom_now) const;
+  /// Where the robot should be now.
+  UncertainPose predict(std::int64_t now_us, const std::optional<Pose2>& T_odom_now) const;
 
-  /// Matches a cloud round the prediction, in all that motion allows when that is doubtful. Which
-  /// mode is taken weighs its inlier ratio against how far the prediction is off; it comes first.
-  /// Modes may be empty.
-  Match match(Matcher& matcher, const PreparedScan& scan, const std::optional<Pose2>& T_odom_base,
-              const MotionLimits& limits) const;
+  /// The places that a scan may have been taken from within reach of the prediction, with their
+  /// probabilities, the most probable first; what is missing to 1 is for none of them. Empty: the
+  /// prediction is too vague for a window, or the scan nearly blind.
+  Localisation match(Matcher& matcher, const PreparedScan& scan,
+                     const std::optional<Pose2>& T_odom_base) const;
 
-  /// How well a pose explains its scan: beside the scans before, and the motion since. What the map
-  /// does not know is no objection.
-  enum class Verdict { kExplains, kDoubtful, kLost };
-  struct Judgement {
-    Verdict verdict;
-    /// The pose's support, less what it takes to believe that motion.
-    double worth = 0.0;
-  };
-  Judgement judge(const Cloud& cloud, const std::optional<Pose2>& T_odom_base,
-                  const MatchMode& mode, const Evidence& evidence) const;
+  /// Goes on from a pose that the scan of that time was matched to.
+  void advance(std::int64_t utime_us, const std::optional<Pose2>& T_odom_base,
+               const UncertainPose& pose);
 
-  /// Goes on from a pose.
-  void advance(const Cloud& cloud, const std::optional<Pose2>& T_odom_base, const MatchMode& mode,
-               const Evidence& evidence);
+  /// Remembers how probable it was that the last scan's pose is right: after bad scans, more is
+  /// asked of the next one.
+  void doubt(double right);
+
+  /// Whether the robot may well be elsewhere: one bad scan does not say so.
+  bool doubtful() const;
+
+  const UncertainPose& pose() const { return pose_; }
 
  private:
-  PoseWindow window(const Pose2& predicted) const;
-  PoseWindow widest_window(const Pose2& predicted, std::int64_t now_us,
-                           const MotionLimits& limits) const;
-  double surprise(const Pose2& pose, const Pose2& predicted, bool odometry_now) const;
+  UncertainPose motion(std::int64_t now_us, const std::optional<Pose2>& T_odom_now) const;
+  UncertainPose guessed_motion(double dt_s) const;
+  UncertainPose unknown_motion(double dt_s) const;
+  double seconds_to(std::int64_t now_us) const;
+  void learn(const Pose2& guess, const Pose2& pose, double dt_s);
+  bool by_odometry(const std::optional<Pose2>& T_odom_now) const {
+    return T_odom_base_ && T_odom_now;
+  }
 
+  const MotionLimits limits_;
   std::int64_t utime_us_;
-  Pose2 pose_;
   std::optional<Pose2> T_odom_base_;
-  // Motion of the last step in base, and how long it took.
-  Pose2 step_;
+  UncertainPose pose_;
+  // Motion of the last step in base, and how long it took (s).
+  std::optional<UncertainPose> step_;
   double step_s_ = 0.0;
-  // The last cloud's; 0: there was nothing to compare with yet.
-  double inlier_ratio_ = 0.0;
-  // A running mean over the last clouds; nothing before one was seen where the map knows much.
-  std::optional<double> support_;
+  // What speed and turn rate change by (m/s^2, rad/s^2), as a standard deviation.
+  double acceleration_ = 0.5, turn_acceleration_ = 0.5;
+  double in_reach_ = 0.995;
 };
 
 }  // namespace voxlist::matching

@@ -54,7 +54,7 @@ void write_csv(const std::string& path, const std::vector<Listed>& scans) {
 // What Python prints, number by number.
 std::vector<double> python_says(const std::string& csv) {
   const std::string command =
-      "python3 -B " VOXLIST_SOURCE_DIR "/tests/bench/fit_confidence.py --as-built " + csv;
+      "python3 -B " VOXLIST_SOURCE_DIR "/tests/bench/fits/fit_confidence.py --as-built " + csv;
   const std::unique_ptr<FILE, int (*)(FILE*)> out(popen(command.c_str(), "r"), pclose);
   std::vector<double> numbers;
   for (double number = 0.0; std::fscanf(out.get(), "%lf", &number) == 1;) numbers.push_back(number);

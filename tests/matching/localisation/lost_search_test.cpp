@@ -21,6 +21,10 @@ class OnePose : public Matcher {
     match.unseen = unseen_;
     return match;
   }
+  Match track(const PreparedScan& scan, const std::optional<PoseWindow>& window,
+              const UncertainPose&) override {
+    return match(scan, window);
+  }
   Match match_rivals(const PreparedScan& scan) override {
     ++asked;
     return match(scan, std::nullopt);

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <vector>
+
+#include "voxlist/geometry/uncertain_pose.h"
+#include "voxlist/matching/engines/matcher.h"
+
+namespace voxlist::matching {
+
+/// Sorts the modes of a match in reach of a prediction (Matcher::track) by what speaks for each,
+/// how scan and map agree and how near the prediction is, the best first, and gives their
+/// probabilities. What is missing to 1 is for none of them: the scan is bad, or the robot somewhere
+/// else. `in_reach`: the probability, before the scan is looked at, that one of them is right.
+/// Coefficients were fitted by tests/bench/fits/fit_places.py.
+std::vector<double> rank_in_reach(const UncertainPose& predicted, double in_reach,
+                                  std::vector<MatchMode>& modes);
+
+}  // namespace voxlist::matching

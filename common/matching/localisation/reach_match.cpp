@@ -1,0 +1,38 @@
+#include "voxlist/matching/localisation/reach_match.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "voxlist/matching/localisation/reach_confidence.h"
+
+namespace voxlist::matching {
+namespace {
+
+// A window reaches so many standard deviations of the prediction, and at least so far (m, rad).
+constexpr double kWindowSigmas = 3.0, kLeastWindow_m = 0.3, kLeastWindow_rad = 0.05;
+// A prediction that is vaguer (m, to each side) is looked for in the whole map, which is quicker by
+// then.
+constexpr double kWidest_m = 5.0;
+
+PoseWindow window_of(const UncertainPose& predicted) {
+  const auto half = [&](int i, double least) {
+    return least + kWindowSigmas * std::sqrt(predicted.covariance(i, i));
+  };
+  return {predicted.pose, half(0, kLeastWindow_m), half(1, kLeastWindow_m),
+          std::min(half(2, kLeastWindow_rad), std::numbers::pi)};
+}
+
+}  // namespace
+
+ReachMatch match_in_reach(Matcher& matcher, const PreparedScan& scan,
+                          const UncertainPose& predicted, double in_reach) {
+  const PoseWindow window = window_of(predicted);
+  const bool vague = std::max(window.half_x_m, window.half_y_m) > kWidest_m;
+  ReachMatch result{matcher.track(scan, vague ? std::nullopt : std::optional(window), predicted),
+                    {}};
+  result.probabilities = rank_in_reach(predicted, in_reach, result.match.modes);
+  return result;
+}
+
+}  // namespace voxlist::matching
