@@ -32,6 +32,7 @@ void localise_all(ScanInput& input, MapRun& run, Progress& progress) {
     run.localise(std::move(*scan));
     progress.show(input.progress());
   }
+  run.finish();
 }
 
 // Places the scans that the table knows. Returns how many it does not know.

@@ -5,24 +5,48 @@
 namespace voxlist::desk {
 
 void MapRun::localise(Scan scan) {
-  const matching::Localisation result = localiser_.localise(scan.cloud, scan.T_odom_base);
+  matching::Localisation result = localiser_.localise(scan.cloud, scan.T_odom_base);
+  if (!result.tracking() && unconfirmed_) {
+    begin_anew();
+    result = localiser_.localise(scan.cloud, scan.T_odom_base);
+  }
   if (!result.tracking()) {
     ++(result.state == matching::LocalisationState::kAmbiguous ? ambiguous_ : lost_);
     return;
   }
+  if (unconfirmed_) finish();
   const Pose2& pose = result.modes.front().T_map_base;
-  const Pose3 T_map_base = to_pose3(pose);
-  trajectory_.push_back({scan.cloud.utime_us, T_map_base});
-  if (!builder_.wants(scan.cloud, pose)) return;
-  add({T_map_base, std::move(scan.cloud)});
-  localiser_.map_grew(builder_.changed_blocks());
+  trajectory_.push_back({scan.cloud.utime_us, to_pose3(pose)});
+  if (!builder_->wants(scan.cloud, pose)) return;
+  add({to_pose3(pose), std::move(scan.cloud)});
+  localiser_.map_grew(builder_->changed_blocks());
 }
 
 void MapRun::place(Scan scan, const Pose3& T_map_base) {
   trajectory_.push_back({scan.cloud.utime_us, T_map_base});
-  add({T_map_base, std::move(scan.cloud)});
+  keep_(builder_->add({T_map_base, std::move(scan.cloud)}));
 }
 
-void MapRun::add(mapping::Keyframe keyframe) { keep_(builder_.add(std::move(keyframe))); }
+void MapRun::finish() {
+  if (unconfirmed_) keep_(*unconfirmed_);
+  unconfirmed_.reset();
+}
+
+void MapRun::add(mapping::Keyframe keyframe) {
+  const bool first = builder_->poses().empty();
+  keyframe = builder_->add(std::move(keyframe));
+  if (first)
+    unconfirmed_ = std::move(keyframe);
+  else
+    keep_(keyframe);
+}
+
+void MapRun::begin_anew() {
+  unconfirmed_.reset();
+  lost_ += std::ssize(trajectory_);
+  trajectory_.clear();
+  builder_.emplace(*empty_);
+  localiser_.forget();
+}
 
 }  // namespace voxlist::desk

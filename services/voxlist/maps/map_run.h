@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -20,16 +21,23 @@ class MapRun {
 
   /// Goes on with a map that is there, or an empty one.
   MapRun(const matching::LocaliserConfig& localiser, mapping::MapBuilder map, Keep keep)
-      : builder_(std::move(map)), keep_(std::move(keep)), localiser_(builder_.map(), localiser) {}
+      : empty_(map.poses().empty() ? std::optional(map) : std::nullopt),
+        builder_(std::move(map)),
+        keep_(std::move(keep)),
+        localiser_(builder_->map(), localiser) {}
 
   /// Finds the scan's pose, and adds the scan to the map if it is sure and the scan tells
-  /// something new.
+  /// something new. As long as a map is one scan that no other fits, the next scan begins it anew:
+  /// one of the two is bad, and it may be the first.
   void localise(Scan scan);
 
   /// Adds the scan to the map at a pose that is known.
   void place(Scan scan, const Pose3& T_map_base);
 
-  const mapping::MapBuilder& builder() const { return builder_; }
+  /// No scan comes any more.
+  void finish();
+
+  const mapping::MapBuilder& builder() const { return *builder_; }
 
   /// T_map_base of every scan that was placed.
   const std::vector<StampedPose3>& trajectory() const { return trajectory_; }
@@ -40,8 +48,12 @@ class MapRun {
 
  private:
   void add(mapping::Keyframe keyframe);
+  void begin_anew();
 
-  mapping::MapBuilder builder_;
+  const std::optional<mapping::MapBuilder> empty_;
+  std::optional<mapping::MapBuilder> builder_;
+  // The map's first keyframe, until a second scan fits it.
+  std::optional<mapping::Keyframe> unconfirmed_;
   const Keep keep_;
   matching::Localiser localiser_;
   std::vector<StampedPose3> trajectory_;
