@@ -21,12 +21,12 @@ import re
 import sys
 from collections import defaultdict
 
-SOURCE = pathlib.Path(__file__).parents[2] / "common/matching/localisation/confidence.cpp"
+SOURCE = pathlib.Path(__file__).parents[3] / "common/matching/localisation/confidence.cpp"
 
 
-def constants():
-    """Name -> value of the constants in confidence.cpp, their only home."""
-    return {name: float(value) for name, value in re.findall(r"\b(k\w+) = (-?[\d.]+)", SOURCE.read_text())}
+def constants(source=SOURCE):
+    """Name -> value of the constants in a source, their only home."""
+    return {name: float(value) for name, value in re.findall(r"\b(k\w+) = (-?[\d.]+)", source.read_text())}
 
 
 NEAR_SLACK = constants()["kNearSlack"]
