@@ -13,8 +13,8 @@ namespace {
 // (confidence.cpp).
 constexpr double kPlacePower = 12.0, kSlack = 0.05;
 
-// Modes that are nearer to each other than this (m, rad) are one place: not which of them it is
-// matters, but how sure the pose is. A judgement: about a robot's size.
+// Modes that are nearer to each other than this (m, rad) are one place: its pose is less sure, not
+// its probability. A judgement: about a robot's size.
 constexpr double kSame_m = 0.3, kSame_rad = 0.1;
 
 // Fitted by tests/bench/fits/fit_places.py: whether the best place in reach is right.
@@ -37,7 +37,7 @@ double log_odds(const std::vector<MatchMode>& modes) {
   double rival = kUnseen * best.support;
   if (modes.size() > 1) rival = std::max(rival, modes[1].support);
   return kBias + kSupport * here + kKnown * known + kSupportKnown * here * known +
-         kRival * std::max(0.0, unexplained(rival) - here) + +kOverlap * best.overlap_ratio;
+         kRival * std::max(0.0, unexplained(rival) - here) + kOverlap * best.overlap_ratio;
 }
 
 bool same_place(const Pose2& a, const Pose2& b) {
