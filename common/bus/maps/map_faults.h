@@ -30,7 +30,7 @@ MapFault fault_of(const map_update_t& message);
 /// One word, for counters. kNone: "".
 const char* name(MapFault fault);
 
-/// For people: "has blocks kilometres away". kNone: "".
+/// The fault in words for people, such as "has blocks kilometres away"; empty for kNone.
 const char* sentence(MapFault fault);
 
 /// Whether a map of so many blocks, and what is made of it, fits a machine of this memory.

@@ -24,7 +24,7 @@ class ListenerRoom {
   bool is_there(const std::vector<UdpSocket>& listeners, std::int64_t now_us);
 
  private:
-  // By inode; those that have room are not in it.
+  // Listeners without room, by the inode of their socket.
   std::map<std::uint64_t, std::int64_t> full_since_us_;
 };
 

@@ -21,7 +21,7 @@ class Head {
     return *this;
   }
 
-  // With the zero behind it.
+  // The channel's name counts with the zero behind it.
   Head& put(const std::string& text) {
     bytes_.insert(bytes_.end(), text.c_str(), text.c_str() + text.size() + 1);
     return *this;

@@ -21,7 +21,7 @@ constexpr std::size_t kTold = 3;
 
 std::string lower_name(const fs::path& file) { return lower_case(file.filename().string()); }
 
-// By its name: not hidden, and not the map that Voxlist makes.
+// Whether a file's name may be a scan's: it is not hidden, and not the map that Voxlist makes.
 bool looks_like_scan(const fs::path& file) {
   const std::string name = lower_name(file);
   return (name.ends_with(".ply") || name.ends_with(".pcd")) && !name.starts_with('.') &&

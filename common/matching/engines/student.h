@@ -18,7 +18,7 @@ inline double log_student(double distance2) {
   return -0.5 * (kFreedom + 3.0) * elementary::log1p(distance2 / kFreedom);
 }
 
-/// By how much the expected covariance must be larger for an error so far off, at least 1.
+/// The factor, at least 1, by which a covariance must grow before it expects an error so far off.
 inline double student_variance(double distance2) {
   return std::max(1.0, (kFreedom + distance2) / (kFreedom + 3.0));
 }

@@ -36,7 +36,7 @@ class WindowMatcher {
   const VoxelMap& map_;
   const SurfelMap& surfels_;
   const double cell_m_;
-  // By how often their layers are doubled, those that were asked for.
+  // Maps that were asked for; the index is how often their layers are doubled.
   std::array<std::unique_ptr<WindowMap>, WindowMap::kMostDoublings + 1> maps_;
 };
 
