@@ -140,7 +140,8 @@ Localisation Localiser::search(const PreparedScan& scan, const std::optional<Pos
 
 Localisation Localiser::track(const PreparedScan& scan, const std::optional<Pose2>& T_odom_base) {
   Localisation result = track_->match(matcher(), scan, T_odom_base);
-  track_->doubt(result.confidence);
+  // A scan that is nearly blind says neither that the robot is there, nor that it is not.
+  if (scan.points().points.size() >= kFewestMatchPoints) track_->doubt(result.confidence);
   result.state = state_of(result);
   if (result.confidence < kSureInReach) return result;
   const PoseMode& mode = result.modes.front();

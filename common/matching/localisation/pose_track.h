@@ -46,8 +46,6 @@ class PoseTrack {
   /// Whether the robot may well be elsewhere: one bad scan does not say so.
   bool doubtful() const;
 
-  const UncertainPose& pose() const { return pose_; }
-
  private:
   UncertainPose motion(std::int64_t now_us, const std::optional<Pose2>& T_odom_now) const;
   UncertainPose guessed_motion(double dt_s) const;

@@ -90,6 +90,28 @@ TEST(Localiser, TracksWhileItsMapGrows) {
   EXPECT_LT(largest_mapping_error_m(run, true), 0.15);
 }
 
+TEST(Localiser, IsAsSureAfterBlindScansAsBeforeThem) {
+  const Drive run = drive(1, 6.0);
+  OccupancyMap map, same;
+  Localiser localiser(map), other(same);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto found = localiser.localise(run.clouds[i], run.odometry[i]);
+    ASSERT_TRUE(found.tracking());
+    ASSERT_TRUE(other.localise(run.clouds[i], run.odometry[i]).tracking());
+    add(map, run.clouds[i], found.modes.front().T_map_base);
+    add(same, run.clouds[i], found.modes.front().T_map_base);
+  }
+  for (int i = 0; i < 20; ++i) {
+    Cloud blind;
+    blind.utime_us = run.clouds[3].utime_us + 10'000 * (i + 1);
+    EXPECT_EQ(other.localise(blind, run.odometry[3]).state, LocalisationState::kLost);
+  }
+  const auto plain = localiser.localise(run.clouds[4], run.odometry[4]),
+             after = other.localise(run.clouds[4], run.odometry[4]);
+  EXPECT_TRUE(after.tracking());
+  EXPECT_EQ(after.confidence, plain.confidence);
+}
+
 TEST(Localiser, FindsScansInTheWholeMapOrSaysThatItIsNotSure) {
   const Drive run = drive(2, 40.0);
   const OccupancyMap map = map_at_truth(run);
