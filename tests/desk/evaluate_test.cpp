@@ -70,6 +70,17 @@ TEST_F(Evaluate, TellsWhatIsOddWithATable) {
   EXPECT_THAT(run.err, HasSubstr("odd.csv: yaw goes up to 90"));
 }
 
+TEST_F(Evaluate, WarnsWhenTheErrorsAreOfFewPosesOnly) {
+  test::write_text(work_ / "short.tum", "0 0 0 0 0 0 0 1\n");
+  const test::DeskRun few = test::run({"evaluate", work_ / "short.tum", work_ / "poses.csv"});
+  EXPECT_EQ(few.exit_code, 0);
+  EXPECT_THAT(few.err, HasSubstr("only 1 of 4 true poses have a pose of the trajectory"));
+  test::write_text(work_ / "short.tum", "0 0 0 0 0 0 0 1\n3 3 0 0 0 0 0 1\n");
+  const test::DeskRun half = test::run({"evaluate", work_ / "short.tum", work_ / "poses.csv"});
+  EXPECT_EQ(half.exit_code, 0);
+  EXPECT_EQ(half.err, "");
+}
+
 TEST_F(Evaluate, SaysWhenNothingBelongsTogether) {
   test::write_text(work_ / "poses.csv", "t,x,y,yaw,scan\n1000,0,0,0,77\n1001,1,0,0,78\n");
   const test::DeskRun run = test::run({"evaluate", work_ / "trajectory.tum", work_ / "poses.csv"});

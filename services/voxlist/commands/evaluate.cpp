@@ -26,6 +26,9 @@ struct EvaluateOptions {
 constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
 constexpr double kPercent = 100.0;
 
+// Below this share of the true poses the errors say little of the run.
+constexpr double kEnough = 0.5;
+
 std::string line(const std::string& name, const std::vector<std::string>& cells) {
   std::string text = fmt::format("{:32}", name);
   for (const std::string& cell : cells) text += fmt::format("{:>10}", cell);
@@ -61,6 +64,15 @@ void tell(const evaluation::TrajectoryErrors& errors, Console& console) {
   console.say(line("  over 1 m and more (deg/m)", errors.per_metre_rad, kDegreesPerRadian));
 }
 
+void warn_of_few(const evaluation::TrajectoryErrors& errors, Console& console) {
+  if (static_cast<double>(errors.matched) >= kEnough * static_cast<double>(errors.in_truth)) return;
+  console.warn(fmt::format(
+      "only {} of {} true poses have a pose of the trajectory: the errors are of these alone. Was "
+      "the robot lost at the others, are their times of another clock, or does the truth come more "
+      "often than scans?",
+      errors.matched, errors.in_truth));
+}
+
 io::PoseTable read(const std::filesystem::path& path, Console& console) {
   io::PoseTable table = io::read_poses(path);
   for (const std::string& note : io::notes_on(table)) console.warn(path.string() + ": " + note);
@@ -77,6 +89,7 @@ int run(const EvaluateOptions& options, Console& console) {
                                    options.trajectory.string()));
   }
   tell(*errors, console);
+  warn_of_few(*errors, console);
   const drawing::Picture picture = evaluation::draw_errors(*errors);
   const auto plot = options.png();
   picture.write_png(plot);
