@@ -122,7 +122,9 @@ TEST_F(Map, PutsScansAtGivenPosesAndSkipsThoseWithout) {
 
 TEST_F(Map, FindsGivenPosesForALogByTime) {
   test::write_text(work_ / "given.csv", "t,x,y,yaw\n3.004,1,2,0.5\n4.5,9,9,0\n");
-  ASSERT_EQ(map(import(), folder_, {"--use-poses", work_ / "given.csv"}).exit_code, 0);
+  const test::DeskRun run = map(import(), folder_, {"--use-poses", work_ / "given.csv"});
+  ASSERT_EQ(run.exit_code, 0);
+  EXPECT_THAT(run.err, HasSubstr("poses: row 1 has no scan"));
   const auto trajectory = io::read_tum(folder_ + "/trajectory.tum");
   ASSERT_EQ(trajectory.size(), 1u);
   EXPECT_EQ(trajectory[0].utime_us, 3'000'000);

@@ -152,14 +152,11 @@ std::string sentence(const std::string& kind, const std::vector<std::string>& na
 }
 
 void tell_rows(const PoseTable& table, RowMatch& match) {
-  const std::set<std::optional<std::size_t>> used(match.rows.begin(), match.rows.end());
-  std::vector<std::string> unused;
-  for (std::size_t row = 0; row < table.rows.size(); ++row) {
-    if (!used.contains(row))
-      unused.push_back(table.has_files ? table.rows[row].file
-                                       : std::to_string(table.rows[row].scan));
-  }
-  if (!unused.empty()) match.notes.push_back(sentence("row ", unused, "scan"));
+  std::set<std::size_t> used;
+  for (const auto& row : match.rows)
+    if (row) used.insert(*row);
+  if (const std::string note = rows_without_scan(table, used); !note.empty())
+    match.notes.push_back(note);
   std::ranges::copy(notes_on(table), std::back_inserter(match.notes));
 }
 
@@ -171,6 +168,16 @@ void tell_scans(const Files& files, RowMatch& match) {
 }
 
 }  // namespace
+
+std::string rows_without_scan(const PoseTable& table, const std::set<std::size_t>& used) {
+  std::vector<std::string> unused;
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    if (!used.contains(row))
+      unused.push_back(table.has_files ? table.rows[row].file
+                                       : std::to_string(table.rows[row].scan));
+  }
+  return unused.empty() ? "" : sentence("row ", unused, "scan");
+}
 
 bool RowMatch::empty() const { return count(rows) == 0; }
 

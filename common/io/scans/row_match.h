@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,9 @@ struct RowMatch {
 
   bool empty() const;
 };
+
+/// Says which rows of a table have no scan: "row 3 has no scan". Empty when all have one.
+std::string rows_without_scan(const PoseTable& table, const std::set<std::size_t>& used);
 
 /// Numbers of scans that tell how far apart they were taken: the last number in each name where all
 /// have one and they increase, else the positions.

@@ -4,12 +4,15 @@
 #include <cstdlib>
 #include <fstream>
 #include <map>
+#include <memory>
+#include <set>
 
 #include "services/voxlist/recording/channel_counts.h"
 #include "services/voxlist/recording/recording.h"
 #include "voxlist/bus/event_log.h"
 #include "voxlist/io/files/file.h"
 #include "voxlist/io/files/file_kind.h"
+#include "voxlist/io/scans/row_match.h"
 #include "voxlist/system/file_parts.h"
 
 namespace voxlist::desk {
@@ -48,6 +51,12 @@ RowOfScan match_numbers(const io::PoseTable& poses) {
   };
 }
 
+// A table, and which of its rows the log's scans had so far.
+struct RowUse {
+  io::PoseTable poses;
+  std::set<std::size_t> used = {};
+};
+
 std::string why_no_log(const std::filesystem::path& path) {
   std::string start(512, '\0');
   std::ifstream(path).read(start.data(), std::ssize(start));
@@ -76,6 +85,7 @@ class LogRecording : public Recording {
       if (auto record = read(*event)) return record;
     }
     tell_damage();
+    tell_rows();
     return std::nullopt;
   }
 
@@ -89,7 +99,13 @@ class LogRecording : public Recording {
 
   RowOfScan match(const io::PoseTable& poses) const override {
     for (const std::string& note : io::notes_on(poses)) omissions_.remark("poses: " + note);
-    return poses.has_times ? match_times(poses) : match_numbers(poses);
+    row_use_ = std::make_shared<RowUse>(poses);
+    return [row_of = poses.has_times ? match_times(poses) : match_numbers(poses), use = row_use_](
+               std::int64_t number, std::int64_t utime_us) {
+      const auto row = row_of(number, utime_us);
+      if (row) use->used.insert(*row);
+      return row;
+    };
   }
 
  private:
@@ -132,6 +148,13 @@ class LogRecording : public Recording {
     return std::nullopt;
   }
 
+  // Which scans there are is known at the end.
+  void tell_rows() {
+    if (!row_use_) return;
+    const std::string note = io::rows_without_scan(row_use_->poses, row_use_->used);
+    if (!note.empty()) omissions_.remark("poses: " + note);
+  }
+
   void tell_damage() {
     for (; damage_told_ < log_.damaged_events(); ++damage_told_) {
       omissions_.add("damaged events", fmt::format("{}: damage before byte {}", path_.string(),
@@ -144,6 +167,7 @@ class LogRecording : public Recording {
   Omissions& omissions_;
   bus::EventLogReader log_;
   ChannelCounts channels_;
+  mutable std::shared_ptr<RowUse> row_use_;  // of the last table that was matched
   std::int64_t clouds_ = 0, damage_told_ = 0;
   std::int64_t last_seq_ = -1, last_number_ = 0;
 };
