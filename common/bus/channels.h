@@ -12,6 +12,8 @@ class obstacles_t;
 class planar_lidar_t;
 class pointcloud_t;
 class pose_t;
+class rigid_transform_t;
+class uncertain_pose_t;
 }  // namespace voxlist
 
 namespace voxlist::bus {
@@ -48,6 +50,15 @@ inline constexpr Channel<pose_t> kOdometry{"ODOMETRY"};
 /// Where the robot is, only while TRACKING. Frame: map (may jump). Rate: each cloud, and odometry's
 /// rate between. From localiser to whoever drives the robot.
 inline constexpr Channel<pose_t> kPose{"POSE"};
+
+/// Each POSE once more, with its map and its covariance. Frame, rate and ways as POSE's.
+inline constexpr Channel<uncertain_pose_t> kPoseCovariance{"POSE_COVARIANCE"};
+
+/// T_map_odom, from odom to map: with the newest ODOMETRY it gives the pose at any time, T_map_base
+/// = T_map_odom * T_odom_base. It jumps where POSE does, and changes slowly otherwise: odometry's
+/// drift. Never of a pose that is not TRACKING. Rate: each tracked cloud with odometry.
+/// From localiser to whoever plans in odom, or wants poses at a rate of its own.
+inline constexpr Channel<rigid_transform_t> kMapOdom{"T_MAP_ODOM"};
 
 /// The true pose, where a simulator or a data set knows it. Frame: map. Rate: each cloud.
 /// From the scan source to recordings only: no service may use it.

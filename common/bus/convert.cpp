@@ -7,6 +7,7 @@
 #include <voxlist/keyframe_t.hpp>
 #include <voxlist/pointcloud_t.hpp>
 #include <voxlist/pose_t.hpp>
+#include <voxlist/rigid_transform_t.hpp>
 
 #include "voxlist/geometry/time_limit.h"
 
@@ -158,6 +159,20 @@ pose_t to_message(const StampedPose3& pose) {
 
 pose_t to_message(const StampedPose2& pose) {
   return to_message(StampedPose3{pose.utime_us, to_pose3(pose.pose)});
+}
+
+void write(const UncertainPose& from, double (&pose)[3], double (&covariance)[9]) {
+  pose[0] = from.pose.x_m;
+  pose[1] = from.pose.y_m;
+  pose[2] = from.pose.yaw_rad;
+  for (int i = 0; i < 9; ++i) covariance[i] = from.covariance(i / 3, i % 3);
+}
+
+rigid_transform_t to_transform(const StampedPose2& T_a_b) {
+  rigid_transform_t message{};
+  message.utime = T_a_b.utime_us;
+  write_pose(to_pose3(T_a_b.pose), message.trans, message.quat);
+  return message;
 }
 
 keyframe_t to_message(const PosedCloud& keyframe) {

@@ -8,6 +8,7 @@
 #include "voxlist/geometry/cloud.h"
 #include "voxlist/geometry/laser_line.h"
 #include "voxlist/geometry/mirror_state.h"
+#include "voxlist/geometry/uncertain_pose.h"
 
 namespace voxlist::bus {
 
@@ -75,6 +76,12 @@ pointcloud_t to_message(const Cloud& cloud, const std::string& frame_id, std::in
 /// Velocities and accelerations are 0.
 pose_t to_message(const StampedPose3& pose);
 pose_t to_message(const StampedPose2& pose);
+
+/// A planar pose and its covariance, in the arrays of a message: x, y, yaw; row by row.
+void write(const UncertainPose& from, double (&pose)[3], double (&covariance)[9]);
+
+/// A transform T_a_b, with the time that it is of.
+rigid_transform_t to_transform(const StampedPose2& T_a_b);
 
 keyframe_t to_message(const PosedCloud& keyframe);
 

@@ -10,6 +10,8 @@
 #include <voxlist/planar_lidar_t.hpp>
 #include <voxlist/pointcloud_t.hpp>
 #include <voxlist/pose_t.hpp>
+#include <voxlist/rigid_transform_t.hpp>
+#include <voxlist/uncertain_pose_t.hpp>
 
 #include "voxlist/bus/wire.h"
 
@@ -128,5 +130,9 @@ Fault check_lengths(const pointcloud_t& message) {
 }
 
 Fault check_lengths(const pose_t&) { return Fault::kNone; }
+
+Fault check_lengths(const rigid_transform_t&) { return Fault::kNone; }
+
+Fault check_lengths(const uncertain_pose_t&) { return Fault::kNone; }
 
 }  // namespace voxlist::bus

@@ -172,4 +172,8 @@ void walk(WireReader& in, const pointcloud_t*) {
 
 void walk(WireReader& in, const pose_t*) { in.skip(kInt64 + 16 * kDouble); }
 
+void walk(WireReader& in, const rigid_transform_t*) { in.skip(kInt64 + 7 * kDouble); }
+
+void walk(WireReader& in, const uncertain_pose_t*) { in.skip(4 * kInt64 + 12 * kDouble); }
+
 }  // namespace voxlist::bus

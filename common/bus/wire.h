@@ -95,6 +95,8 @@ void walk(WireReader& in, const obstacles_t*);
 void walk(WireReader& in, const planar_lidar_t*);
 void walk(WireReader& in, const pointcloud_t*);
 void walk(WireReader& in, const pose_t*);
+void walk(WireReader& in, const rigid_transform_t*);
+void walk(WireReader& in, const uncertain_pose_t*);
 
 /// One for each type: what is wrong with a message that is about to be encoded. lcm's encoder
 /// trusts the counts and would read past the arrays' ends.
@@ -109,6 +111,8 @@ Fault check_lengths(const obstacles_t& message);
 Fault check_lengths(const planar_lidar_t& message);
 Fault check_lengths(const pointcloud_t& message);
 Fault check_lengths(const pose_t& message);
+Fault check_lengths(const rigid_transform_t& message);
+Fault check_lengths(const uncertain_pose_t& message);
 
 /// Whether the bytes are exactly one message of type M. Allocates nothing, so it is safe on any
 /// bytes.

@@ -1,6 +1,8 @@
 #include "voxlist/geometry/uncertain_pose.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
 
 #include "voxlist/geometry/elementary.h"
 
@@ -16,6 +18,12 @@ UncertainPose UncertainPose::operator*(const UncertainPose& T_b_c) const {
   result.covariance =
       lever * covariance * lever.transpose() + turn * T_b_c.covariance * turn.transpose();
   return result;
+}
+
+double worst_sigma_m(const Eigen::Matrix3d& covariance) {
+  const Eigen::Matrix2d position = covariance.topLeftCorner<2, 2>();
+  const double mean = position.trace() / 2.0;
+  return std::sqrt(mean + std::sqrt(std::max(0.0, mean * mean - position.determinant())));
 }
 
 double mahalanobis2(const Pose2& pose, const UncertainPose& other) {

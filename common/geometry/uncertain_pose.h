@@ -16,6 +16,10 @@ struct UncertainPose {
   UncertainPose operator*(const UncertainPose& T_b_c) const;
 };
 
+/// Standard deviation (m) of the position in the direction in which it is least sure. `covariance`
+/// is of (x, y, yaw).
+double worst_sigma_m(const Eigen::Matrix3d& covariance);
+
 /// The square of the distance of a pose from another in units of its standard deviations: 3 in the
 /// mean of poses that err as it says. The covariance must be positive definite.
 double mahalanobis2(const Pose2& pose, const UncertainPose& other);

@@ -35,10 +35,7 @@ localisation_t to_message(const matching::Localisation& result) {
   message.state = static_cast<std::int32_t>(result.state);
   for (const matching::PoseMode& mode : result.modes) {
     pose_mode_t out{};
-    out.pose[0] = mode.T_map_base.x_m;
-    out.pose[1] = mode.T_map_base.y_m;
-    out.pose[2] = mode.T_map_base.yaw_rad;
-    for (int i = 0; i < 9; ++i) out.covariance[i] = mode.covariance(i / 3, i % 3);
+    bus::write({mode.T_map_base, mode.covariance}, out.pose, out.covariance);
     out.overlap = mode.overlap_ratio;
     out.probability = mode.probability;
     message.modes.push_back(out);
@@ -65,7 +62,8 @@ LocaliserService::LocaliserService(bus::Bus& bus, bus::Health& health,
       odometry_check_(health, {.channel = "ODOMETRY",
                                .remedy = "is the robot base running?",
                                .is_needed = false,
-                               .disorder_us = OdometryBuffer::kMaxAge_us}) {
+                               .disorder_us = OdometryBuffer::kMaxAge_us}),
+      pose_output_(bus) {
   bus_.subscribe(bus::kOdometry, [this](const pose_t& message) { take_odometry(message); });
   bus_.subscribe(bus::kMapUpdate, [this](const map_update_t& message) { take_map(message); });
   bus_.subscribe(bus::kCloud, [this](const pointcloud_t& message) { take_cloud(message); });
@@ -96,7 +94,14 @@ void LocaliserService::take_odometry(const pose_t& message) {
   }
   const StampedPose2 T_odom_base{pose->utime_us, to_pose2(pose->pose)};
   odometry_.add(T_odom_base);
-  if (T_map_odom_) publish_pose(T_odom_base.utime_us, *T_map_odom_ * T_odom_base.pose);
+  carry_on(T_odom_base);
+}
+
+// POSE between clouds.
+void LocaliserService::carry_on(const StampedPose2& T_odom_base) {
+  const auto pose = pose_output_.at(T_odom_base.pose);
+  const auto predicted = localiser_.predict(T_odom_base.utime_us, T_odom_base.pose);
+  if (pose && predicted) pose_output_.publish(T_odom_base.utime_us, {*pose, predicted->covariance});
 }
 
 void LocaliserService::take_map(const map_update_t& message) {
@@ -117,8 +122,7 @@ void LocaliserService::follow_mapper() {
   if (!mapper_.held()) map_ = {};
   origin_.reset();
   localiser_.forget();
-  T_map_odom_.reset();
-  last_pose_.reset();
+  pose_output_.lose();
   unanswered_utime_us_.reset();
 }
 
@@ -166,16 +170,15 @@ void LocaliserService::localise(const Cloud& cloud) {
       std::chrono::duration_cast<std::chrono::microseconds>(Clock::now() - start).count());
   health_.count(std::string("state/") + name(result.state));
   tell(result.state);
-  T_map_odom_.reset();
   unanswered_utime_us_.reset();
   unanswered_since_us_.reset();
   if (result.tracking()) {
-    const Pose2& pose = result.modes.front().T_map_base;
-    if (T_odom_base) T_map_odom_ = pose * T_odom_base->inverse();
+    const matching::PoseMode& mode = result.modes.front();
     unanswered_utime_us_ = cloud.utime_us;
-    publish_pose(cloud.utime_us, pose);
+    pose_output_.found({cloud.utime_us, message.map_id, message.map_version},
+                       {mode.T_map_base, mode.covariance}, T_odom_base);
   } else {
-    last_pose_.reset();
+    pose_output_.lose();
   }
   bus_.publish(bus::kLocalisation, message);
 }
@@ -219,20 +222,6 @@ void LocaliserService::tell(matching::LocalisationState state) {
   const bool is_sure = state == matching::LocalisationState::kTracking;
   health_.raise("map", State::kWarning, has_map ? "" : "waits for a map: is the mapper running?");
   health_.raise("pose", State::kWarning, is_sure || !has_map ? "" : name(state));
-}
-
-void LocaliserService::publish_pose(std::int64_t utime_us, const Pose2& pose) {
-  pose_t message = bus::to_message(StampedPose2{utime_us, pose});
-  // Velocities in base, over the step since the last POSE.
-  if (last_pose_ && utime_us > last_pose_->utime_us) {
-    const double dt_s = static_cast<double>(utime_us - last_pose_->utime_us) * 1e-6;
-    const Pose2 step = last_pose_->pose.inverse() * pose;
-    message.vel[0] = step.x_m / dt_s;
-    message.vel[1] = step.y_m / dt_s;
-    message.rotation_rate[2] = step.yaw_rad / dt_s;
-  }
-  if (!last_pose_ || utime_us > last_pose_->utime_us) last_pose_ = StampedPose2{utime_us, pose};
-  bus_.publish(bus::kPose, message);
 }
 
 }  // namespace voxlist::services

@@ -4,6 +4,7 @@
 #include <deque>
 #include <optional>
 
+#include "services/localiser/pose_output.h"
 #include "voxlist/geometry/odometry_buffer.h"
 #include "voxlist/matching/localisation/localiser.h"
 #include "voxlist/service/inputs/cloud_input.h"
@@ -40,7 +41,8 @@ struct LocaliserServiceConfig {
   }
 };
 
-/// CLOUD, ODOMETRY and MAP_UPDATE in; POSE, LOCALISATION and MAP_REQUEST out.
+/// CLOUD, ODOMETRY and MAP_UPDATE in; POSE, POSE_COVARIANCE, T_MAP_ODOM,
+/// LOCALISATION and MAP_REQUEST out.
 ///
 /// A cloud waits until the mapper has decided on the cloud before it (bounded by map_wait_s): so a
 /// run gives the same map as its replay, and as the desk tool. A few clouds may wait; beyond that
@@ -66,6 +68,7 @@ class LocaliserService {
 
   void take_cloud(const pointcloud_t& message);
   void take_odometry(const pose_t& message);
+  void carry_on(const StampedPose2& T_odom_base);
   void take_map(const map_update_t& message);
   void follow_mapper();
   bool map_is_due(std::int64_t now_us);
@@ -75,7 +78,6 @@ class LocaliserService {
                                             const std::optional<Pose2>& T_odom_base);
   void tell(matching::LocalisationState state);
   void compare_times(std::int64_t cloud_utime_us, bool has_odometry);
-  void publish_pose(std::int64_t utime_us, const Pose2& pose);
 
   bus::Bus& bus_;
   bus::Health& health_;
@@ -92,9 +94,7 @@ class LocaliserService {
   // The last cloud that the mapper may have added, and since when its answer is awaited.
   std::optional<std::int64_t> unanswered_utime_us_;
   std::optional<std::int64_t> unanswered_since_us_;
-  // T_map_odom while tracking with odometry: what POSE between clouds is made of.
-  std::optional<Pose2> T_map_odom_;
-  std::optional<StampedPose2> last_pose_;
+  PoseOutput pose_output_;
 };
 
 }  // namespace voxlist::services

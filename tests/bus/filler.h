@@ -19,6 +19,7 @@
 #include <voxlist/pointcloud_t.hpp>
 #include <voxlist/pose_t.hpp>
 #include <voxlist/rigid_transform_t.hpp>
+#include <voxlist/uncertain_pose_t.hpp>
 
 namespace voxlist::bus {
 
@@ -84,6 +85,9 @@ class Filler {
   void fill(voxel_block_t& m) { fill_all(m.x, m.y, m.z, m.bits); }
   void fill(map_request_t& m) { fill_all(m.utime, m.want, m.first, m.map_id, m.version); }
   void fill(rigid_transform_t& m) { fill_all(m.utime, m.trans, m.quat); }
+  void fill(uncertain_pose_t& m) {
+    fill_all(m.utime, m.map_id, m.map_version, m.cloud_utime, m.pose, m.covariance);
+  }
   void fill(pose_t& m) { fill_all(m.utime, m.pos, m.vel, m.orientation, m.rotation_rate, m.accel); }
 
   void fill(health_t& m) {

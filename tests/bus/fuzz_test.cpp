@@ -13,6 +13,8 @@
 #include <voxlist/planar_lidar_t.hpp>
 #include <voxlist/pointcloud_t.hpp>
 #include <voxlist/pose_t.hpp>
+#include <voxlist/rigid_transform_t.hpp>
+#include <voxlist/uncertain_pose_t.hpp>
 
 #include "tests/bus/forge.h"
 #include "voxlist/bus/bus.h"
@@ -39,6 +41,8 @@ class Victim {
     listen(kCloudSlice, Delivery::kLatest, [](const pointcloud_t& m) { from_message(m); });
     listen(kOdometry, Delivery::kEvery, [](const pose_t& m) { from_message(m); });
     listen(kPose, Delivery::kLatest, [](const pose_t& m) { from_message(m); });
+    listen(kPoseCovariance, Delivery::kEvery, [](const uncertain_pose_t&) {});
+    listen(kMapOdom, Delivery::kEvery, [](const rigid_transform_t&) {});
     listen(kTruth, Delivery::kEvery, [](const pose_t& m) { from_message(m); });
     listen(kKeyframe, Delivery::kEvery, [](const keyframe_t& m) { from_message(m); });
     listen(kMapUpdate, Delivery::kEvery, [this](const map_update_t& m) { take_map(m); });

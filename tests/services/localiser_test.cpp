@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cmath>
 #include <optional>
 #include <vector>
 #include <voxlist/localisation_t.hpp>
@@ -8,6 +9,8 @@
 #include <voxlist/map_update_t.hpp>
 #include <voxlist/pointcloud_t.hpp>
 #include <voxlist/pose_t.hpp>
+#include <voxlist/rigid_transform_t.hpp>
+#include <voxlist/uncertain_pose_t.hpp>
 
 #include "services/localiser/localiser_service.h"
 #include "tests/stand_in_mapper.h"
@@ -43,6 +46,9 @@ struct Scene {
     bus.subscribe(bus::kLocalisation,
                   [this](const localisation_t& m) { localisations.push_back(m); });
     bus.subscribe(bus::kPose, [this](const pose_t& m) { poses.push_back(m); });
+    bus.subscribe(bus::kPoseCovariance,
+                  [this](const uncertain_pose_t& m) { covariances.push_back(m); });
+    bus.subscribe(bus::kMapOdom, [this](const rigid_transform_t& m) { map_odom.push_back(m); });
     bus.subscribe(bus::kMapRequest, [this](const map_request_t& m) {
       requests.push_back(m);
       if (mapper) publish(mapper->answer(m));
@@ -85,6 +91,8 @@ struct Scene {
   std::optional<test::StandInMapper> mapper;
   std::vector<localisation_t> localisations;
   std::vector<pose_t> poses;
+  std::vector<uncertain_pose_t> covariances;
+  std::vector<rigid_transform_t> map_odom;
   std::vector<map_request_t> requests;
 };
 
@@ -164,6 +172,63 @@ TEST(LocaliserService, PublishesPosesBetweenCloudsFromOdometry) {
   EXPECT_EQ(scene.poses[1].utime, kStart_us + 100'000);
   EXPECT_NEAR(scene.poses[1].pos[0], scene.poses[0].pos[0] + 0.05, 0.002);
   EXPECT_NEAR(scene.poses[1].vel[0], 0.5, 0.02);
+}
+
+TEST(LocaliserService, TellsHowSureEachPoseIs) {
+  Scene scene;
+  scene.begin(map_of_room(), kStart_us);
+  const Pose2 T_odom_base{10.0, 5.0, 1.0};
+  scene.bus.publish(bus::kOdometry, bus::to_message(StampedPose2{kStart_us, T_odom_base}));
+  scene.send_cloud(kStart_us);
+  scene.run(kStart_us);
+  for (int i = 1; i <= 3; ++i) {
+    const Pose2 T_odom_now = T_odom_base * Pose2{0.2 * i, 0.0, 0.0};
+    scene.bus.publish(bus::kOdometry,
+                      bus::to_message(StampedPose2{kStart_us + i * 100'000, T_odom_now}));
+    scene.run(kStart_us + i * 100'000);
+  }
+  ASSERT_EQ(scene.covariances.size(), 4u);
+  ASSERT_EQ(scene.poses.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const uncertain_pose_t& told = scene.covariances[i];
+    EXPECT_EQ(told.utime, scene.poses[i].utime);
+    EXPECT_EQ(told.cloud_utime, kStart_us);
+    EXPECT_EQ(told.map_id, 7);
+    EXPECT_EQ(told.map_version, 1);
+    EXPECT_EQ(told.pose[0], scene.poses[i].pos[0]);
+    EXPECT_GT(told.covariance[0], i == 0 ? 0.0 : scene.covariances[i - 1].covariance[0]);
+  }
+  const pose_mode_t& mode = scene.localisations.at(0).modes.at(0);
+  for (int i = 0; i < 9; ++i) EXPECT_EQ(scene.covariances[0].covariance[i], mode.covariance[i]);
+  EXPECT_LT(std::sqrt(scene.covariances[3].covariance[0]), 0.1) << "0.6 m by odometry";
+}
+
+TEST(LocaliserService, TellsTheTransformFromOdomToMapAtTrackedPosesAlone) {
+  Scene scene;
+  scene.begin(map_of_room(), kStart_us);
+  const Pose2 T_odom_base{10.0, 5.0, 1.0};
+  scene.bus.publish(bus::kOdometry, bus::to_message(StampedPose2{kStart_us, T_odom_base}));
+  scene.send_cloud(kStart_us);
+  scene.run(kStart_us);
+  ASSERT_EQ(scene.map_odom.size(), 1u);
+  const rigid_transform_t& told = scene.map_odom[0];
+  EXPECT_EQ(told.utime, kStart_us);
+  const Pose3 T_map_odom =
+      Eigen::Translation3d(Eigen::Vector3d(told.trans)) *
+      Eigen::Quaterniond(told.quat[0], told.quat[1], told.quat[2], told.quat[3]);
+  const auto pose = bus::from_message(scene.poses.at(0));
+  ASSERT_TRUE(pose);
+  EXPECT_TRUE((T_map_odom * to_pose3(T_odom_base)).isApprox(pose->pose, 1e-9));
+
+  Cloud blind;
+  blind.utime_us = kStart_us + 1'000'000;
+  scene.bus.publish(bus::kCloud, bus::to_message(blind, "base", 0));
+  scene.run(kStart_us + 1'600'000);
+  scene.run(kStart_us + 2'200'000);
+  ASSERT_EQ(scene.localisations.size(), 2u);
+  EXPECT_EQ(scene.localisations[1].state, localisation_t::STATE_LOST);
+  EXPECT_EQ(scene.map_odom.size(), 1u);
+  EXPECT_EQ(scene.covariances.size(), 1u);
 }
 
 TEST(LocaliserService, ForgetsWhereItWasWhenTheMapIsAnother) {

@@ -18,12 +18,7 @@ constexpr double kLikely = 0.2;
 // direction: about a robot's size.
 constexpr double kExact_m = 0.3;
 
-bool is_exact(const Eigen::Matrix3d& covariance) {
-  const Eigen::Matrix2d shifts = covariance.topLeftCorner<2, 2>();
-  const double mean = shifts.trace() / 2.0;
-  const double worst = mean + std::sqrt(std::max(0.0, mean * mean - shifts.determinant()));
-  return worst < kExact_m * kExact_m;
-}
+bool is_exact(const Eigen::Matrix3d& covariance) { return worst_sigma_m(covariance) < kExact_m; }
 
 LocalisationState state_of(const Localisation& tracked) {
   double any = 0.0;
@@ -96,6 +91,11 @@ Localisation Localiser::localise(const Cloud& cloud, const std::optional<Pose2>&
   Localisation result;
   threads_.run([&] { result = localise(PreparedScan(cloud, config_.matcher.scan), T_odom_base); });
   return result;
+}
+
+std::optional<UncertainPose> Localiser::predict(std::int64_t utime_us,
+                                                const std::optional<Pose2>& T_odom_base) const {
+  return track_ ? std::optional(track_->predict(utime_us, T_odom_base)) : std::nullopt;
 }
 
 Localisation Localiser::locate(const Cloud& cloud) {

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "voxlist/geometry/cloud.h"
+#include "voxlist/geometry/uncertain_pose.h"
 #include "voxlist/matching/engines/matcher.h"
 #include "voxlist/matching/localisation/localisation.h"
 #include "voxlist/matching/localisation/thread_arena.h"
@@ -55,6 +56,11 @@ class Localiser {
   /// Locates a cloud (in base). `T_odom_base`: odometry's pose at the cloud's time, if there is
   /// odometry. In an empty map the cloud defines the map frame: TRACKING at the identity.
   Localisation localise(const Cloud& cloud, const std::optional<Pose2>& T_odom_base = std::nullopt);
+
+  /// Where the robot should be at a time, and how sure that is: by odometry since its last sure
+  /// pose, or by its last step. Nothing while none is known.
+  std::optional<UncertainPose> predict(std::int64_t utime_us,
+                                       const std::optional<Pose2>& T_odom_base) const;
 
   /// Locates a cloud by itself, without a guess and without memory.
   Localisation locate(const Cloud& cloud);

@@ -9,6 +9,7 @@
 #include <voxlist/obstacles_t.hpp>
 
 #include "voxlist/geometry/angle.h"
+#include "voxlist/geometry/uncertain_pose.h"
 #include "voxlist/matching/localisation/localisation.h"
 
 namespace voxlist::desk {
@@ -23,6 +24,13 @@ constexpr std::size_t kMaxCandidates = 8;
 std::string pose_text(const double (&pose)[3]) {
   return fmt::format("x {:7.2f} m  y {:7.2f} m  yaw {:6.1f} deg", pose[0], pose[1],
                      pose[2] / kRadPerDeg);
+}
+
+// How sure a mode's pose is, in the direction in which it is least sure.
+std::string sigma_text(const pose_mode_t& mode) {
+  const Eigen::Map<const Eigen::Matrix3d> covariance(mode.covariance);
+  return fmt::format("1 sigma {:.3f} m {:.2f} deg", worst_sigma_m(covariance),
+                     std::sqrt(std::max(0.0, covariance(2, 2))) / kRadPerDeg);
 }
 
 std::string state_text(const localisation_t& message) {
@@ -65,8 +73,9 @@ std::vector<std::string> RobotView::lines(double now_s) const {
   if (last_->state != localisation_t::STATE_AMBIGUOUS) return lines;
   const std::size_t shown = std::min(last_->modes.size(), kMaxCandidates);
   for (std::size_t i = 0; i < shown; ++i)
-    lines.push_back(fmt::format("  candidate {}: {}  probability {:.2f}", i + 1,
-                                pose_text(last_->modes[i].pose), last_->modes[i].probability));
+    lines.push_back(fmt::format("  candidate {}: {}  {}  probability {:.2f}", i + 1,
+                                pose_text(last_->modes[i].pose), sigma_text(last_->modes[i]),
+                                last_->modes[i].probability));
   return lines;
 }
 
@@ -82,7 +91,7 @@ std::string RobotView::pose_line(double now_s) const {
   std::string text = fmt::format("{:5.0f} s  {:9}", time_s, state_text(*last_));
   // Of several candidates each has its own line.
   if (!last_->modes.empty() && last_->state == localisation_t::STATE_TRACKING)
-    text += "  " + pose_text(last_->modes.front().pose);
+    text += "  " + pose_text(last_->modes.front().pose) + "  " + sigma_text(last_->modes.front());
   return text + surroundings(now_s);
 }
 

@@ -22,6 +22,10 @@ localisation_t localisation(std::int32_t state, const std::vector<double>& proba
   for (const double probability : probabilities) {
     pose_mode_t mode{};
     mode.pose[0] = 1.0;
+    // 0.1 m along, 0.02 m across, turned by 45 deg; 0.01 rad.
+    mode.covariance[0] = mode.covariance[4] = 0.0052;
+    mode.covariance[1] = mode.covariance[3] = 0.0048;
+    mode.covariance[8] = 1e-4;
     mode.probability = probability;
     message.modes.push_back(mode);
   }
@@ -44,9 +48,11 @@ TEST(RobotView, ShowsPoseMapAndObstacle) {
   obstacles.ranges_m = {3.0F, 1.5F};
   robot.take(obstacles, 0.0);
   ASSERT_THAT(robot.lines(1.0), SizeIs(1));
-  EXPECT_EQ(robot.lines(1.0)[0],
-            "    0 s  TRACKING   x    1.00 m  y    0.00 m  yaw    0.0 deg  map    7 keyframes  "
-            "nearest obstacle 1.50 m");
+  EXPECT_EQ(
+      robot.lines(1.0)[0],
+      "    0 s  TRACKING   x    1.00 m  y    0.00 m  yaw    0.0 deg  1 sigma 0.100 m 0.57 deg  "
+      "map    7 keyframes  "
+      "nearest obstacle 1.50 m");
   EXPECT_EQ(robot.summary(), "1 clouds, 1 placed, map of 7 keyframes");
 }
 
@@ -73,7 +79,9 @@ TEST(RobotView, ShowsCandidatesWithTheirProbabilitiesWhileAmbiguous) {
   const auto lines = robot.lines(0.0);
   ASSERT_THAT(lines, SizeIs(3));
   EXPECT_THAT(lines[0], Not(HasSubstr("x ")));
-  EXPECT_EQ(lines[1], "  candidate 1: x    1.00 m  y    0.00 m  yaw    0.0 deg  probability 0.60");
+  EXPECT_EQ(lines[1],
+            "  candidate 1: x    1.00 m  y    0.00 m  yaw    0.0 deg  1 sigma 0.100 m 0.57 deg  "
+            "probability 0.60");
   EXPECT_THAT(lines[2], HasSubstr("probability 0.30"));
 }
 
