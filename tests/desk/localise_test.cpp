@@ -57,6 +57,29 @@ TEST_F(Localise, IsRightWhereItSaysThatItIsSure) {
   EXPECT_GT(sure, 0);
 }
 
+TEST_F(Localise, FindsTheSameInAMapWhosePosesHaveAHeight) {
+  const auto without_time = [&] {
+    std::string rows;
+    for (const std::string& line : test::read_lines(result_))
+      rows += line.substr(0, line.rfind(',')) + '\n';
+    return rows;
+  };
+  ASSERT_EQ(localise(scans_).exit_code, 0);
+  const std::string level = without_time();
+  EXPECT_THAT(level, HasSubstr("TRACKING"));
+
+  std::string lifted;
+  for (const std::string& line : test::read_lines(scans_ + "/poses.csv"))
+    lifted += line + (lifted.empty() ? ",z" : ",0.6") + '\n';
+  test::write_text(work_ / "lifted.csv", lifted);
+  const test::DeskRun run = test::run({"map", scans_, "-o", map_, "--use-poses",
+                                       work_ / "lifted.csv", "--octomap-resolution", "1"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("heights are counted from 0.60 m"));
+  ASSERT_EQ(localise(scans_).exit_code, 0);
+  EXPECT_EQ(without_time(), level);
+}
+
 TEST_F(Localise, LeavesThePoseOfAScanEmptyThatFitsNowhere) {
   test::write_text(scans_ + "/scan_3.ply",
                    "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\n"

@@ -114,7 +114,10 @@ TEST_F(Map, PutsScansAtGivenPosesAndSkipsThoseWithout) {
   const auto trajectory = io::read_tum(folder_ + "/trajectory.tum");
   ASSERT_EQ(trajectory.size(), 2u);
   EXPECT_EQ(trajectory[0].utime_us, 3'000'000);
-  EXPECT_TRUE(trajectory[0].pose.translation().isApprox(Eigen::Vector3d(1.0, 2.0, 3.0)));
+  EXPECT_TRUE(trajectory[0].pose.translation().isApprox(Eigen::Vector3d(1.0, 2.0, -3.0)));
+  EXPECT_TRUE(trajectory[1].pose.translation().isApprox(Eigen::Vector3d(4.0, 5.0, 0.0)));
+  EXPECT_THAT(run.err, HasSubstr("heights are counted from 6.00 m"));
+  EXPECT_THAT(run.err, HasSubstr("1 of 2 poses are more than 0.2 m above or below"));
   EXPECT_NEAR(to_pose2(trajectory[0].pose).yaw_rad, 2.0 * std::atan2(0.6, 0.8), 1e-9);
   EXPECT_EQ(test::load_map(folder_).keyframes.size(), 2u);
   EXPECT_EQ(summary(folder_)["without_pose"], test::kScans - 2);

@@ -13,7 +13,8 @@ namespace voxlist::desk {
 /// time (to 0.01 s) where the table has times, else by the scan's number.
 ///
 /// Poses far from the origin (UTM) are moved near it, by the first one's whole metres: no map
-/// reaches that far.
+/// reaches that far. Heights are counted from their median: a robot's base is at height 0 of its
+/// map.
 class GivenPoses {
  public:
   /// Throws FileError when the file is no table of poses, or they lie farther apart than a map
@@ -31,7 +32,7 @@ class GivenPoses {
     return StampedPose3{has_times_ ? scan.cloud.utime_us : found.utime_us, found.pose};
   }
 
-  /// What was taken off each position (m); zero of poses near the origin.
+  /// What was taken off each position (m); zero of level poses near the origin.
   const Eigen::Vector3d& offset_m() const { return offset_m_; }
 
  private:
