@@ -21,6 +21,8 @@ set(VOXLIST_SANITIZE "" CACHE STRING "sanitizers to build with, e.g. address,und
 if(VOXLIST_SANITIZE)
   add_compile_options(-fsanitize=${VOXLIST_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${VOXLIST_SANITIZE})
+  # GCC 12 takes std::regex for uninitialised once it is instrumented.
+  add_compile_options(-Wno-maybe-uninitialized)
 endif()
 
 find_program(VOXLIST_CCACHE ccache)
