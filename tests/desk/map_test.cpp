@@ -1,3 +1,4 @@
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -16,6 +17,7 @@
 #include "voxlist/io/clouds/cloud_file.h"
 #include "voxlist/io/poses/trajectory.h"
 #include "voxlist/mapping/map_store.h"
+#include "voxlist/simulation/random.h"
 #include "voxlist/system/file_lock.h"
 
 namespace voxlist::desk {
@@ -24,6 +26,17 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 using Arguments = std::vector<std::string>;
+
+// A scan that fits nowhere.
+Cloud random_cloud(int seed) {
+  simulation::Random random(static_cast<std::uint64_t>(seed));
+  Cloud cloud;
+  for (int i = 0; i < 2000; ++i)
+    cloud.points.push_back(Eigen::Vector3d(random.uniform(-6.0, 6.0), random.uniform(-6.0, 6.0),
+                                           random.uniform(0.0, 2.0))
+                               .cast<float>());
+  return cloud;
+}
 
 class Map : public testing::Test {
  protected:
@@ -220,6 +233,19 @@ TEST_F(Map, HasAnExitCodeWhenNoScanWasPlaced) {
   const test::DeskRun run = map(work_ / "blind", folder_);
   EXPECT_EQ(run.exit_code, 1);
   EXPECT_THAT(run.err, HasSubstr("the map is empty: no scan was placed"));
+}
+
+TEST_F(Map, HasAnExitCodeAndALastLineWhenLessThanHalfWasPlaced) {
+  for (int scan = 4; scan < test::kScans; ++scan)
+    io::write_ply(fmt::format("{}/scan_{}.ply", scans_, scan), random_cloud(scan));
+  const test::DeskRun run = map(scans_, folder_);
+  EXPECT_EQ(run.exit_code, 3);
+  EXPECT_EQ(summary(folder_)["placed"], 4);
+  EXPECT_EQ(test::load_map(folder_).warning, "");
+  const std::string last = run.err.substr(run.err.rfind('\n', run.err.size() - 2) + 1);
+  EXPECT_THAT(last, HasSubstr("8 of 12 scans have no place in the map"));
+  EXPECT_THAT(last, HasSubstr("scan 4 at 4.0 s was the first that fitted nowhere"));
+  EXPECT_THAT(last, HasSubstr("scans that are closer together"));
 }
 
 TEST_F(Map, RefusesGivenPosesOfAnotherRun) {

@@ -1,7 +1,6 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
-#include <chrono>
 #include <memory>
 #include <utility>
 
@@ -9,6 +8,7 @@
 #include "services/voxlist/commands/settings.h"
 #include "services/voxlist/maps/map_files.h"
 #include "services/voxlist/maps/map_run.h"
+#include "services/voxlist/maps/run_report.h"
 #include "services/voxlist/maps/stored_map.h"
 #include "services/voxlist/output/progress.h"
 #include "services/voxlist/output/stop.h"
@@ -52,27 +52,13 @@ class OpenMap {
 };
 
 RunFigures place_all(ScanInput& input, MapRun& run, Console& console) {
-  const auto start = std::chrono::steady_clock::now();
-  {
-    Progress progress(console, "extending");
+  return carry_out(input, run, "extending", console, [&](Progress& progress) {
     while (auto scan = input.next()) {
       run.localise(std::move(*scan));
       progress.show(input.progress());
     }
-  }
-  RunFigures figures;
-  figures.elapsed_seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  figures.input = input.path().string();
-  figures.scans = input.scans();
-  figures.placed = std::ssize(run.trajectory());
-  figures.lost = run.lost();
-  figures.ambiguous = run.ambiguous();
-  figures.left_out = input.omissions().total();
-  figures.seconds = input.seconds();
-  figures.interrupted = stop_requested();
-  if (!input.omissions().empty()) console.warn("left out: " + input.omissions().summary());
-  return figures;
+    run.finish();
+  });
 }
 
 void tell(const ExtendOptions& options, const MapRun& run, const RunFigures& figures,
@@ -112,6 +98,8 @@ int extend(const ExtendOptions& options, Console& console) {
   Summary summary = extended(read_summary(options.folder).value_or(Summary()), figures);
   describe(voxels, keyframes, summary);
   files.write_summary(std::move(summary));
+  const std::string missing = shortfall(figures);
+  if (!missing.empty()) console.warn(missing);
   return 0;
 }
 

@@ -2,13 +2,13 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <chrono>
 #include <memory>
 
 #include "services/voxlist/commands/command.h"
 #include "services/voxlist/commands/settings.h"
 #include "services/voxlist/maps/map_files.h"
 #include "services/voxlist/maps/map_run.h"
+#include "services/voxlist/maps/run_report.h"
 #include "services/voxlist/output/progress.h"
 #include "services/voxlist/output/stop.h"
 #include "services/voxlist/recording/given_poses.h"
@@ -55,29 +55,16 @@ std::int64_t place_all(const std::filesystem::path& table, const GivenPoses& pos
 }
 
 RunFigures make_map(const MapOptions& options, ScanInput& input, MapRun& run, Console& console) {
-  RunFigures figures;
-  const auto start = std::chrono::steady_clock::now();
-  {
-    Progress progress(console, "mapping");
-    if (options.poses.empty()) {
-      localise_all(input, run, progress);
-    } else {
-      const GivenPoses poses(options.poses, input, console);
-      figures.offset_m = poses.offset_m();
-      figures.without_pose = place_all(options.poses, poses, input, run, progress);
-    }
-  }
-  figures.elapsed_seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  figures.input = input.path().string();
-  figures.scans = input.scans();
-  figures.placed = std::ssize(run.trajectory());
-  figures.lost = run.lost();
-  figures.ambiguous = run.ambiguous();
-  figures.left_out = input.omissions().total();
-  figures.seconds = input.seconds();
-  figures.interrupted = stop_requested();
-  if (!input.omissions().empty()) console.warn("left out: " + input.omissions().summary());
+  if (options.poses.empty())
+    return carry_out(input, run, "mapping", console,
+                     [&](Progress& progress) { localise_all(input, run, progress); });
+  const GivenPoses poses(options.poses, input, console);
+  std::int64_t unknown = 0;
+  RunFigures figures = carry_out(input, run, "mapping", console, [&](Progress& progress) {
+    unknown = place_all(options.poses, poses, input, run, progress);
+  });
+  figures.offset_m = poses.offset_m();
+  figures.without_pose = unknown;
   return figures;
 }
 
@@ -87,7 +74,7 @@ void tell(const MapOptions& options, const MapRun& run, const RunFigures& figure
   console.say(
       fmt::format("{} of {} scans placed ({} lost, {} ambiguous, {} without a pose), {} keyframes, "
                   "{} voxels, hash {}",
-                  run.trajectory().size(), figures.scans, run.lost(), run.ambiguous(),
+                  figures.placed, figures.scans, figures.lost, figures.ambiguous,
                   figures.without_pose, run.builder().poses().size(),
                   run.builder().map().occupied.size(), hash_text(run.builder().map().occupied)));
   console.say(fmt::format("{:.1f} s of data in {:.1f} s, {:.1f} times real time", figures.seconds,
@@ -113,6 +100,11 @@ bool tell_if_empty(const MapRun& run, Console& console) {
   return true;
 }
 
+void tell_shortfall(const RunFigures& figures, Console& console) {
+  const std::string missing = shortfall(figures);
+  if (!missing.empty()) console.warn(missing);
+}
+
 int map(const MapOptions& options, Console& console) {
   const DeskSettings settings = options.making.settings();
   ScanInput input(options.input, console,
@@ -134,7 +126,9 @@ int map(const MapOptions& options, Console& console) {
   Summary summary = summary_of(figures);
   describe(voxels, run.builder().poses().size(), summary);
   files.write_summary(std::move(summary));
-  return tell_if_empty(run, console) ? 1 : 0;
+  if (tell_if_empty(run, console)) return 1;
+  tell_shortfall(figures, console);
+  return mostly_lost(figures) ? kMostlyLost : 0;
 }
 
 void add_options(CLI::App& command, MapOptions& options) {
@@ -159,6 +153,7 @@ void add_map(CLI::App& program, Command& chosen) {
   add_options(*command, *options);
   command->footer(
       "Writes trajectory.tum, map.ply, map.png, map.bt, keyframes.voxlist, summary.json.\n"
+      "Exit code 3: less than half of the scans were placed; the last line says what would help.\n"
       "Examples:\n"
       "  voxlist map hall.lcmlog -o hall_map\n"
       "  voxlist map hall -o hall_map --use-poses hall/poses.csv --octomap-resolution 0.2");

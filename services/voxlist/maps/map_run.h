@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "services/voxlist/maps/summary.h"
 #include "services/voxlist/recording/scan_input.h"
 #include "voxlist/mapping/map_builder.h"
 #include "voxlist/matching/localisation/localiser.h"
@@ -42,13 +43,14 @@ class MapRun {
   /// T_map_base of every scan that was placed.
   const std::vector<StampedPose3>& trajectory() const { return trajectory_; }
 
-  /// Scans that were not placed.
-  std::int64_t lost() const { return lost_; }
-  std::int64_t ambiguous() const { return ambiguous_; }
+  /// What became of the scans so far, and of no more than that.
+  RunFigures figures() const;
 
  private:
   void add(mapping::Keyframe keyframe);
   void begin_anew();
+  void note(const Scan& scan);
+  void note_lost(const Scan& scan, matching::LocalisationState state);
 
   const std::optional<mapping::MapBuilder> empty_;
   std::optional<mapping::MapBuilder> builder_;
@@ -58,6 +60,9 @@ class MapRun {
   matching::Localiser localiser_;
   std::vector<StampedPose3> trajectory_;
   std::int64_t lost_ = 0, ambiguous_ = 0;
+  std::optional<std::int64_t> first_us_;
+  std::optional<LostScan> first_lost_;
+  bool odometry_ = false;
 };
 
 }  // namespace voxlist::desk

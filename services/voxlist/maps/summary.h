@@ -11,6 +11,12 @@
 
 namespace voxlist::desk {
 
+/// A scan that has no place in a map.
+struct LostScan {
+  std::int64_t number = 0;  ///< in the folder or log, from 0
+  double seconds = 0.0;     ///< since the first scan
+};
+
 /// What a run that made or extended a map tells beside the map itself.
 struct RunFigures {
   std::string input;
@@ -20,6 +26,8 @@ struct RunFigures {
   std::int64_t ambiguous = 0;
   std::int64_t without_pose = 0;                       ///< not in the table of --use-poses
   std::int64_t left_out = 0;                           ///< could not be read
+  std::optional<LostScan> first_lost;                  ///< the first that was not placed at once
+  bool odometry = false;                               ///< whether there was any
   Eigen::Vector3d offset_m = Eigen::Vector3d::Zero();  ///< taken off the poses of --use-poses
   double seconds = 0.0;                                ///< of data
   double elapsed_seconds = 0.0;                        ///< of work, without writing files

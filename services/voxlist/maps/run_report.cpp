@@ -1,0 +1,55 @@
+#include "services/voxlist/maps/run_report.h"
+
+#include <fmt/core.h>
+
+#include <chrono>
+
+#include "services/voxlist/output/stop.h"
+
+namespace voxlist::desk {
+namespace {
+
+// Scans whose place was asked for.
+std::int64_t asked(const RunFigures& figures) { return figures.scans - figures.without_pose; }
+
+const char* remedy(const RunFigures& figures) {
+  return figures.odometry ? "scans that are closer together and share more walls would help"
+                          : "odometry would help, or scans that are closer together and share more "
+                            "walls";
+}
+
+}  // namespace
+
+RunFigures carry_out(ScanInput& input, const MapRun& run, const std::string& doing,
+                     Console& console, const std::function<void(Progress&)>& place_all) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point start = Clock::now();
+  {
+    Progress progress(console, doing);
+    place_all(progress);
+  }
+  RunFigures figures = run.figures();
+  figures.elapsed_seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  figures.input = input.path().string();
+  figures.scans = input.scans();
+  figures.left_out = input.omissions().total();
+  figures.seconds = input.seconds();
+  figures.interrupted = stop_requested();
+  if (!input.omissions().empty()) console.warn("left out: " + input.omissions().summary());
+  return figures;
+}
+
+std::string shortfall(const RunFigures& figures) {
+  const std::int64_t missing = asked(figures) - figures.placed;
+  if (missing <= 0) return {};
+  std::string text =
+      fmt::format("{} of {} scans have no place in the map", missing, asked(figures));
+  if (figures.first_lost)
+    text += fmt::format("; scan {} at {:.1f} s was the first that fitted nowhere",
+                        figures.first_lost->number, figures.first_lost->seconds);
+  return text + ": " + remedy(figures);
+}
+
+bool mostly_lost(const RunFigures& figures) { return 2 * figures.placed < asked(figures); }
+
+}  // namespace voxlist::desk
