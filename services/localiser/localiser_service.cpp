@@ -15,6 +15,7 @@
 #include "voxlist/bus/convert.h"
 #include "voxlist/bus/health.h"
 #include "voxlist/bus/maps/map_convert.h"
+#include "voxlist/geometry/angle.h"
 
 namespace voxlist::services {
 namespace {
@@ -168,6 +169,7 @@ void LocaliserService::localise(const Cloud& cloud) {
   }
   message.elapsed_us = static_cast<std::int32_t>(
       std::chrono::duration_cast<std::chrono::microseconds>(Clock::now() - start).count());
+  if (result.odometry_error) tell(*result.odometry_error);
   health_.count(std::string("state/") + name(result.state));
   tell(result.state);
   unanswered_utime_us_.reset();
@@ -214,6 +216,17 @@ void LocaliserService::compare_times(std::int64_t cloud_utime_us, bool has_odome
                        fmt::format("ODOMETRY is {:.1f} s {} than CLOUD and is not used: do their "
                                    "clocks agree?",
                                    std::abs(older_s), older_s > 0.0 ? "older" : "newer"));
+}
+
+void LocaliserService::tell(const matching::OdometryError& error) {
+  if (!error.disagrees()) return;
+  health_.count("ODOMETRY/disagrees");
+  odometry_check_.note(
+      "disagrees", bus::Health::State::kWarning,
+      fmt::format(
+          "ODOMETRY disagrees with the scans, which are believed: over {:.2f} m in {:.1f} s "
+          "it is off by {:.2f} m and {:.1f} deg. Do wheels slip?",
+          error.way_m, error.seconds, error.distance_m, error.turn_rad / kRadPerDeg));
 }
 
 void LocaliserService::tell(matching::LocalisationState state) {

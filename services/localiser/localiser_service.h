@@ -77,6 +77,7 @@ class LocaliserService {
   matching::Localisation locate_without_map(const Cloud& cloud,
                                             const std::optional<Pose2>& T_odom_base);
   void tell(matching::LocalisationState state);
+  void tell(const matching::OdometryError& error);
   void compare_times(std::int64_t cloud_utime_us, bool has_odometry);
 
   bus::Bus& bus_;

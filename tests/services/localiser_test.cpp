@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cmath>
 #include <optional>
+#include <string>
 #include <vector>
 #include <voxlist/localisation_t.hpp>
 #include <voxlist/map_request_t.hpp>
@@ -379,6 +380,31 @@ TEST(LocaliserService, TellsThatOdometryIsOfAnotherTime) {
   scene.run(kStart_us + 1'000'000);
   scene.run(kStart_us + 6'000'000);
   EXPECT_EQ(scene.health.message().find("older"), std::string::npos) << scene.health.message();
+}
+
+TEST(LocaliserService, TellsThatOdometryDisagreesWithTheScansUntilItAgreesAgain) {
+  Scene scene;
+  scene.begin(map_of_room(), kStart_us);
+  double by_odometry_m = 0.0;
+  std::vector<std::string> told;
+  for (int i = 0; i < 24; ++i) {
+    const std::int64_t now_us = kStart_us + i * 1'000'000;
+    by_odometry_m += i == 3 ? 0.35 : 0.02;
+    scene.bus.publish(bus::kOdometry,
+                      bus::to_message(StampedPose2{now_us, {by_odometry_m, 0.0, 0.0}}));
+    scene.send_cloud(now_us, 0.02F * static_cast<float>(i));
+    scene.run(now_us);
+    scene.run(now_us + 600'000);  // no mapper answers: it waits for 0.5 s
+    ASSERT_EQ(scene.localisations.back().state, localisation_t::STATE_TRACKING) << i;
+    EXPECT_NEAR(scene.localisations.back().modes[0].pose[0], 0.02 * i, 0.02) << i;
+    told.push_back(scene.health.message());
+  }
+  EXPECT_EQ(told[2].find("disagrees"), std::string::npos) << told[2];
+  EXPECT_NE(told[3].find("ODOMETRY disagrees with the scans, which are believed: over 0.35 m in "
+                         "1.0 s it is off by 0.33 m and 0."),
+            std::string::npos)
+      << told[3];
+  EXPECT_EQ(told[23].find("disagrees"), std::string::npos) << told[23];
 }
 
 TEST(LocaliserService, TellsThatOdometryIsNoPose) {

@@ -2,11 +2,13 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "voxlist/geometry/pose.h"
 #include "voxlist/matching/engines/matcher.h"
 #include "voxlist/matching/localisation/confidence.h"
+#include "voxlist/matching/localisation/odometry_check.h"
 
 namespace voxlist::matching {
 
@@ -55,6 +57,8 @@ struct Localisation {
   /// The whole map was searched, not a window around a prediction.
   bool searched_whole_map = false;
   std::int64_t poses_examined = 0;
+  /// What odometry was off by on its way here, where it is known: while tracking.
+  std::optional<OdometryError> odometry_error;
 
   bool tracking() const { return state == LocalisationState::kTracking; }
 };

@@ -119,17 +119,21 @@ Localisation Localiser::localise(const PreparedScan& scan,
   const Localisation result = search(scan, T_odom_base);
   if (!result.tracking()) return result;
   const PoseMode& mode = result.modes.front();
-  track_ = std::make_unique<PoseTrack>(scan.cloud().utime_us, T_odom_base,
-                                       UncertainPose{mode.T_map_base, mode.covariance}, limits());
+  begin_track(scan, T_odom_base, {mode.T_map_base, mode.covariance});
   search_.reset();
   return result;
 }
 
+void Localiser::begin_track(const PreparedScan& scan, const std::optional<Pose2>& T_odom_base,
+                            const UncertainPose& pose) {
+  track_ = std::make_unique<PoseTrack>(scan.cloud().utime_us, T_odom_base, pose, limits());
+  odometry_check_.clear();
+  odometry_check_.add(scan.cloud().utime_us, pose, T_odom_base);
+}
+
 Localisation Localiser::begin(const PreparedScan& scan, const std::optional<Pose2>& T_odom_base) {
   const Localisation result = origin_of_map(scan);
-  if (result.tracking())
-    track_ =
-        std::make_unique<PoseTrack>(scan.cloud().utime_us, T_odom_base, UncertainPose{}, limits());
+  if (result.tracking()) begin_track(scan, T_odom_base, {});
   return result;
 }
 
@@ -146,6 +150,8 @@ Localisation Localiser::track(const PreparedScan& scan, const std::optional<Pose
   if (result.confidence < kSureInReach) return result;
   const PoseMode& mode = result.modes.front();
   track_->advance(scan.cloud().utime_us, T_odom_base, {mode.T_map_base, mode.covariance});
+  result.odometry_error =
+      odometry_check_.add(scan.cloud().utime_us, {mode.T_map_base, mode.covariance}, T_odom_base);
   return result;
 }
 

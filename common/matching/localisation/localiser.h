@@ -74,6 +74,8 @@ class Localiser {
   void follow_map();
   Matcher& matcher();
   Localisation localise(const PreparedScan& scan, const std::optional<Pose2>& T_odom_base);
+  void begin_track(const PreparedScan& scan, const std::optional<Pose2>& T_odom_base,
+                   const UncertainPose& pose);
   Localisation begin(const PreparedScan& scan, const std::optional<Pose2>& T_odom_base);
   Localisation track(const PreparedScan& scan, const std::optional<Pose2>& T_odom_base);
   Localisation search(const PreparedScan& scan, const std::optional<Pose2>& T_odom_base);
@@ -85,6 +87,7 @@ class Localiser {
   std::unique_ptr<Matcher> matcher_;
   std::unique_ptr<PoseTrack> track_;
   std::unique_ptr<LostSearch> search_;
+  OdometryCheck odometry_check_;
 };
 
 }  // namespace voxlist::matching
