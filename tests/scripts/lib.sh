@@ -4,6 +4,7 @@
 scripts=$(cd "$(dirname "${BASH_SOURCE[0]}")/../../scripts" && pwd)
 work=$(mktemp -d /tmp/voxlist_test.XXXXXX)
 export VOXLIST_RUN_DIR=$work/run XDG_STATE_HOME=$work/state
+[[ -z ${BIN:-} ]] || export VOXLIST_BIN_DIR=$BIN # where the scripts look for programs
 trap 'rm -rf "$work"' EXIT
 
 skip() {
