@@ -26,8 +26,9 @@ struct OdometryError {
 /// holds, poses are as unsure as they say, and odometry is not blamed.
 class OdometryCheck {
  public:
-  /// Takes a pose and odometry's at the same time. Returns the error of the way that ends there,
-  /// and that is the least to be expected; nothing before the second pose, or without odometry.
+  /// Takes a pose and odometry's at the same time. Returns the worst error of the ways that end
+  /// there, or one pose before: a slip is told when two poses have seen it. Nothing before the
+  /// fourth pose, or without odometry.
   std::optional<OdometryError> add(std::int64_t utime_us, const UncertainPose& T_map_base,
                                    const std::optional<Pose2>& T_odom_base);
 
@@ -43,6 +44,7 @@ class OdometryCheck {
     double way_m, turned_rad;
   };
 
+  std::optional<OdometryError> worst() const;
   static OdometryError error(const Sample& from, const Sample& to);
 
   std::deque<Sample> past_;  // oldest first
