@@ -8,7 +8,8 @@
 #include "voxlist/geometry/pose.h"
 #include "voxlist/matching/engines/matcher.h"
 #include "voxlist/matching/localisation/confidence.h"
-#include "voxlist/matching/localisation/odometry_check.h"
+#include "voxlist/matching/motion/odometry_check.h"
+#include "voxlist/matching/motion/tracked_pose.h"
 
 namespace voxlist::matching {
 
@@ -52,6 +53,9 @@ struct Localisation {
   double unseen = 1.0;
   /// Probability that the first mode is right, 0..1.
   double confidence = 0.0;
+  /// What odometry is off by all the time, as far as scans have told; nothing without odometry, or
+  /// when not TRACKING.
+  std::optional<OdometryBias> odometry_bias;
   /// No pose of the searched lattice overlaps more than the best one found.
   bool certified = false;
   /// The whole map was searched, not a window around a prediction.

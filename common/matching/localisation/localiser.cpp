@@ -148,10 +148,13 @@ Localisation Localiser::track(const PreparedScan& scan, const std::optional<Pose
   if (scan.points().points.size() >= kFewestMatchPoints) track_->doubt(result.confidence);
   result.state = state_of(result);
   if (result.confidence < kSureInReach) return result;
-  const PoseMode& mode = result.modes.front();
-  track_->advance(scan.cloud().utime_us, T_odom_base, {mode.T_map_base, mode.covariance});
-  result.odometry_error =
-      odometry_check_.add(scan.cloud().utime_us, {mode.T_map_base, mode.covariance}, T_odom_base);
+  PoseMode& mode = result.modes.front();
+  const UncertainPose matched{mode.T_map_base, mode.covariance};
+  result.odometry_error = odometry_check_.add(scan.cloud().utime_us, matched, T_odom_base);
+  const UncertainPose pose = track_->advance(scan.cloud().utime_us, T_odom_base, matched);
+  mode.T_map_base = pose.pose;
+  mode.covariance = pose.covariance;
+  if (T_odom_base) result.odometry_bias = track_->odometry();
   return result;
 }
 

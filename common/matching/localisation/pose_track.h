@@ -2,20 +2,16 @@
 
 #include <cstdint>
 #include <optional>
-#include <vector>
 
 #include "voxlist/geometry/cloud.h"
 #include "voxlist/geometry/uncertain_pose.h"
 #include "voxlist/matching/engines/matcher.h"
 #include "voxlist/matching/localisation/localisation.h"
+#include "voxlist/matching/motion/match_scatter.h"
+#include "voxlist/matching/motion/motion_guess.h"
+#include "voxlist/matching/motion/tracked_pose.h"
 
 namespace voxlist::matching {
-
-/// Fastest motion to expect where nothing measures it.
-struct MotionLimits {
-  double speed_mps = 0.0;
-  double turn_rate_radps = 0.0;
-};
 
 /// The last pose that is known, and what is known of the motion since: by odometry, or by the step
 /// that led there. It outlives scans that fit nowhere: the motion since grows, and so does the
@@ -35,9 +31,10 @@ class PoseTrack {
   Localisation match(Matcher& matcher, const PreparedScan& scan,
                      const std::optional<Pose2>& T_odom_base) const;
 
-  /// Goes on from a pose that the scan of that time was matched to.
-  void advance(std::int64_t utime_us, const std::optional<Pose2>& T_odom_base,
-               const UncertainPose& pose);
+  /// Goes on from a pose that the scan of that time was matched to, and that the prediction is part
+  /// of. Returns the pose that is believed.
+  UncertainPose advance(std::int64_t utime_us, const std::optional<Pose2>& T_odom_base,
+                        const UncertainPose& matched);
 
   /// Remembers how probable it was that the last scan's pose is right: after bad scans, more is
   /// asked of the next one.
@@ -46,25 +43,21 @@ class PoseTrack {
   /// Whether the robot may well be elsewhere: one bad scan does not say so.
   bool doubtful() const;
 
+  /// What odometry is off by, as far as it is known.
+  OdometryBias odometry() const { return now_.odometry(); }
+
  private:
-  UncertainPose motion(std::int64_t now_us, const std::optional<Pose2>& T_odom_now) const;
-  UncertainPose guessed_motion(double dt_s) const;
-  UncertainPose unknown_motion(double dt_s) const;
+  TrackedPose moved(std::int64_t now_us, const std::optional<Pose2>& T_odom_now) const;
   double seconds_to(std::int64_t now_us) const;
-  void learn(const Pose2& guess, const Pose2& pose, double dt_s);
   bool by_odometry(const std::optional<Pose2>& T_odom_now) const {
     return T_odom_base_ && T_odom_now;
   }
 
-  const MotionLimits limits_;
   std::int64_t utime_us_;
   std::optional<Pose2> T_odom_base_;
-  UncertainPose pose_;
-  // Motion of the last step in base, and how long it took (s).
-  std::optional<UncertainPose> step_;
-  double step_s_ = 0.0;
-  // What speed and turn rate change by (m/s^2, rad/s^2), as a standard deviation.
-  double acceleration_ = 0.5, turn_acceleration_ = 0.5;
+  TrackedPose now_;
+  MotionGuess guess_;
+  MatchScatter scatter_;
   double in_reach_ = 0.995;
 };
 

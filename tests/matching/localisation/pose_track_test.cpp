@@ -18,7 +18,8 @@ UncertainPose exactly(const Pose2& pose) {
 }
 
 PoseTrack after_a_step(const std::optional<Pose2>& T_odom_base = std::nullopt) {
-  PoseTrack track(0, Pose2{}, exactly({}), kLimits);
+  const Pose2 begin = T_odom_base.value_or(Pose2{}) * kStep.inverse();
+  PoseTrack track(0, begin, exactly({}), kLimits);
   track.advance(kStep_us, T_odom_base, exactly(kStep));
   return track;
 }

@@ -1,4 +1,4 @@
-#include "voxlist/matching/localisation/odometry_check.h"
+#include "voxlist/matching/motion/odometry_check.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,0 +1,65 @@
+#include "voxlist/matching/motion/match_scatter.h"
+
+#include <Eigen/Geometry>
+
+#include "voxlist/matching/motion/pose_fusion.h"
+
+namespace voxlist::matching {
+namespace {
+
+// The last so many scans count: as long as a street or a room stays about the same.
+constexpr double kMemory = 30.0;
+// So many scans that scatter by nothing are taken as seen before the first.
+constexpr double kSeenBefore = 3.0;
+// Larger differences (m, rad) are no scatter: wheels slip.
+const Eigen::Vector3d kLargest{0.2, 0.2, 0.05};
+
+// Where odometry and match differ by more than so many standard deviations, it is not by chance:
+// wheels slipped, and odometry is the less sure for it.
+constexpr double kByChance = 4.0;
+
+// Turns base's axes to the map's.
+Eigen::Matrix3d turn_of(const Pose2& pose) {
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  turn.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(pose.yaw_rad).toRotationMatrix();
+  return turn;
+}
+
+}  // namespace
+
+Eigen::Vector3d MatchScatter::variances() const {
+  return (-products_ / (weight_ + kSeenBefore)).cwiseMax(0.0);
+}
+
+Eigen::Matrix3d MatchScatter::covariance(const Pose2& pose) const {
+  const Eigen::Matrix3d turn = turn_of(pose);
+  return turn * variances().asDiagonal() * turn.transpose();
+}
+
+UncertainPose MatchScatter::expected(const UncertainPose& guess) const {
+  return {guess.pose, guess.covariance + covariance(guess.pose)};
+}
+
+void MatchScatter::correct(TrackedPose& moved, const UncertainPose& matched) {
+  UncertainPose guess = moved.pose();
+  const UncertainPose prior = expected(guess);
+  const Eigen::Matrix3d to_base = turn_of(guess.pose).transpose();
+  learn(to_base * difference(matched.pose, guess.pose) - off_);
+  const double surprise = mahalanobis2(matched.pose, expected(guess)) / (kByChance * kByChance);
+  if (surprise > 1.0) guess.covariance *= surprise;
+  const UncertainPose pose = fused(guess, prior, matched, covariance(guess.pose));
+  off_ = to_base * difference(matched.pose, pose.pose);
+  moved.move_to(guess);
+  moved.learn(pose);
+}
+
+// The way from the match before to this one, beside odometry's.
+void MatchScatter::learn(const Eigen::Vector3d& difference) {
+  const Eigen::Vector3d now = difference.cwiseMax(-kLargest).cwiseMin(kLargest);
+  const double kept = 1.0 - 1.0 / kMemory;
+  products_ = kept * products_ + now.cwiseProduct(last_);
+  weight_ = kept * weight_ + 1.0;
+  last_ = now;
+}
+
+}  // namespace voxlist::matching
