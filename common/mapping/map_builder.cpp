@@ -36,6 +36,13 @@ bool MapBuilder::wants(const Cloud& cloud, const Pose2& pose) {
   return scan_news(cloud, to_pose3(pose), config_.max_range_m, map_).share() >= config_.min_news;
 }
 
+void MapBuilder::clear() {
+  map_ = {};
+  poses_.clear();
+  changed_blocks_ = {};
+  looked_at_ = {};
+}
+
 Keyframe MapBuilder::add(Keyframe keyframe) {
   remove_near(keyframe.cloud, config_.min_range_m);
   changed_blocks_ = add_scan(keyframe.cloud, keyframe.T_map_base, config_.max_range_m, map_);

@@ -56,6 +56,9 @@ class MapBuilder {
   /// min_range_m. Returns it as it is in the map, for whoever keeps it: here only its pose is.
   Keyframe add(Keyframe keyframe);
 
+  /// Begins an empty map.
+  void clear();
+
   const OccupancyMap& map() const { return map_; }
 
   /// When and where each keyframe was taken, in their order.

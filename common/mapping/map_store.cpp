@@ -63,6 +63,13 @@ void MapStore::read(std::int64_t new_map_id, const Take& take) {
   keyframes_ = std::make_unique<StoredKeyframes>(file(), std::move(places));
 }
 
+void MapStore::begin_anew(std::int64_t new_map_id) {
+  NewKeyframeFile empty(file(), new_map_id);
+  if (keyframes_->size() > 0) io::keep_aside(file(), ".given-up");
+  empty.commit();
+  read(new_map_id, [](const Keyframe&) {});
+}
+
 // A file that cannot be written anew, for want of room, stays: the reader steps over its damage.
 void MapStore::mend(std::vector<KeyframePlace>& places) try {
   KeyframeReader reader(file());

@@ -67,6 +67,11 @@ class MapStore {
   /// What was damaged and what became of it, one line for the log; empty when all was whole.
   const std::string& notice() const { return notice_; }
 
+  /// Begins an empty map of that id. The file of the one before is kept aside
+  /// (keyframes.voxlist.given-up, .given-up-1, ...), unless it is empty. Throws FileError; then the
+  /// map is as it was.
+  void begin_anew(std::int64_t new_map_id);
+
   /// As KeyframeWriter::append.
   void append(const Keyframe& keyframe) { keyframes_->add(writer_->append(keyframe)); }
 

@@ -23,6 +23,11 @@ namespace {
 // Points of the first cloud that are farther away (m) do not stand in for the map.
 constexpr double kOriginRange_m = 100.0;
 
+// A cloud that fits no map of one cloud waits this long (us) for the next one, and two that fit
+// each other for a new map: that takes two answers of the mapper's, and the time in which another
+// one may object.
+constexpr std::int64_t kUndecided_us = 2'000'000;
+
 // Whether a map can be begun by the cloud: it puts something into it.
 bool can_be_origin(const Cloud& cloud) {
   OccupancyMap map;
@@ -64,7 +69,8 @@ LocaliserService::LocaliserService(bus::Bus& bus, bus::Health& health,
                                .remedy = "is the robot base running?",
                                .is_needed = false,
                                .disorder_us = OdometryBuffer::kMaxAge_us}),
-      pose_output_(bus) {
+      pose_output_(bus),
+      origin_doubt_(config.localiser) {
   bus_.subscribe(bus::kOdometry, [this](const pose_t& message) { take_odometry(message); });
   bus_.subscribe(bus::kMapUpdate, [this](const map_update_t& message) { take_map(message); });
   bus_.subscribe(bus::kCloud, [this](const pointcloud_t& message) { take_cloud(message); });
@@ -134,13 +140,14 @@ void LocaliserService::tick(std::int64_t now_us) {
   follow_mapper();
   health_.gauge("map_voxels", static_cast<double>(map_.occupied.size()));
   health_.gauge("clouds_waiting", static_cast<double>(waiting_.size()));
-  if (waiting_.empty()) return;
+  if (has_undecided(now_us) || waiting_.empty()) return;
   if (unanswered_utime_us_ && !unanswered_since_us_) unanswered_since_us_ = now_us;
   if (!map_is_due(now_us)) return;
-  const Waiting waiting = std::move(waiting_.front());
+  Waiting waiting = std::move(waiting_.front());
   waiting_.pop_front();
-  localise(waiting.cloud);
-  health_.add_latency_us(std::max<std::int64_t>(0, now_us - waiting.arrival_us));
+  const std::int64_t arrival_us = waiting.arrival_us;
+  decide(localise(std::move(waiting)), now_us);
+  health_.add_latency_us(std::max<std::int64_t>(0, now_us - arrival_us));
 }
 
 // Whether the map that the waiting cloud is to be matched with is here, or is not worth waiting for
@@ -154,31 +161,96 @@ bool LocaliserService::map_is_due(std::int64_t now_us) {
   return true;
 }
 
-void LocaliserService::localise(const Cloud& cloud) {
+LocaliserService::Answer LocaliserService::localise(Waiting waiting) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
-  const auto& held = mapper_.held();
-  const auto T_odom_base = odometry_.at(cloud.utime_us);
-  compare_times(cloud.utime_us, T_odom_base.has_value());
-  const matching::Localisation result = locate(cloud, T_odom_base);
-
-  localisation_t message = to_message(result);
-  if (held) {
-    message.map_id = held->map_id;
-    message.map_version = held->version;
+  const std::int64_t utime_us = waiting.cloud.utime_us;
+  Answer answer{.waiting = std::move(waiting), .T_odom_base = odometry_.at(utime_us), .found = {}};
+  compare_times(utime_us, answer.T_odom_base.has_value());
+  if (const auto& held = mapper_.held()) {
+    answer.map_id = held->map_id;
+    answer.map_version = held->version;
   }
-  message.elapsed_us = static_cast<std::int32_t>(
-      std::chrono::duration_cast<std::chrono::microseconds>(Clock::now() - start).count());
-  if (result.odometry_error) tell(*result.odometry_error);
-  health_.count(std::string("state/") + name(result.state));
-  tell(result.state);
+  answer.found = locate(answer.waiting.cloud, answer.T_odom_base);
+  answer.elapsed_us =
+      std::chrono::duration_cast<std::chrono::microseconds>(Clock::now() - start).count();
+  return answer;
+}
+
+void LocaliserService::decide(Answer answer, std::int64_t now_us) {
+  if (!is_first_in_doubt(answer)) {
+    publish_undecided();
+    return publish(answer);
+  }
+  pose_output_.lose();
+  const Cloud& cloud = answer.waiting.cloud;
+  if (!undecided_.empty() && origin_doubt_.fits_it(cloud, answer.T_odom_base)) {
+    undecided_.push_back(std::move(answer));
+    return ask_for_new_map(now_us);
+  }
+  publish_undecided();
+  if (!origin_doubt_.try_origin(cloud, answer.T_odom_base)) return publish(answer);
+  undecided_.push_back(std::move(answer));
+  undecided_since_us_ = now_us;
+}
+
+// Whether the map is one cloud, which this one does not fit, and that one may be the bad one.
+bool LocaliserService::is_first_in_doubt(const Answer& answer) {
+  if (!mapper_.held()) return false;
+  const bool is_it = origin_ && origin_->utime_us == answer.found.utime_us;
+  if (is_it || !origin_doubt_.knows(answer.map_id)) origin_doubt_.begin(answer.map_id, is_it);
+  if (is_it) return false;
+  if (answer.found.tracking() || answer.map_version > 1) origin_doubt_.end();
+  return origin_doubt_.add(answer.found.state);
+}
+
+void LocaliserService::ask_for_new_map(std::int64_t now_us) {
+  map_request_t request{};
+  request.utime = now_us;
+  request.want = map_request_t::WANT_NEW_MAP;
+  request.map_id = undecided_.front().map_id;
+  bus_.publish(bus::kMapRequest, request);
+  mapper_.doubt();
+  undecided_since_us_ = now_us;
+}
+
+// Whether something is to be waited for before the next cloud is matched.
+bool LocaliserService::has_undecided(std::int64_t now_us) {
+  if (undecided_.empty()) return false;
+  const auto& held = mapper_.held();
+  if (held && held->map_id != undecided_.front().map_id) {
+    for (; !undecided_.empty(); undecided_.pop_back())
+      waiting_.push_front(std::move(undecided_.back().waiting));
+    return false;
+  }
+  const bool waits_for_map = undecided_.size() > 1;
+  if (now_us - undecided_since_us_ < kUndecided_us) return waits_for_map || waiting_.empty();
+  if (waits_for_map) origin_doubt_.postpone();
+  publish_undecided();
+  return false;
+}
+
+void LocaliserService::publish_undecided() {
+  for (const Answer& answer : undecided_) publish(answer);
+  undecided_.clear();
+}
+
+void LocaliserService::publish(const Answer& answer) {
+  const matching::Localisation& found = answer.found;
+  localisation_t message = to_message(found);
+  message.map_id = answer.map_id;
+  message.map_version = answer.map_version;
+  message.elapsed_us = static_cast<std::int32_t>(answer.elapsed_us);
+  if (found.odometry_error) tell(*found.odometry_error);
+  health_.count(std::string("state/") + name(found.state));
+  tell(found.state);
   unanswered_utime_us_.reset();
   unanswered_since_us_.reset();
-  if (result.tracking()) {
-    const matching::PoseMode& mode = result.modes.front();
-    unanswered_utime_us_ = cloud.utime_us;
-    pose_output_.found({cloud.utime_us, message.map_id, message.map_version},
-                       {mode.T_map_base, mode.covariance}, T_odom_base);
+  if (found.tracking()) {
+    const matching::PoseMode& mode = found.modes.front();
+    unanswered_utime_us_ = found.utime_us;
+    pose_output_.found({found.utime_us, answer.map_id, answer.map_version},
+                       {mode.T_map_base, mode.covariance}, answer.T_odom_base);
   } else {
     pose_output_.lose();
   }

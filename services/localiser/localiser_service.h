@@ -3,7 +3,9 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <vector>
 
+#include "services/localiser/origin_doubt.h"
 #include "services/localiser/pose_output.h"
 #include "voxlist/geometry/odometry_buffer.h"
 #include "voxlist/matching/localisation/localiser.h"
@@ -49,7 +51,9 @@ struct LocaliserServiceConfig {
 /// the oldest is dropped and counted.
 ///
 /// Where the mapper says that its map is empty, the first cloud is the map's origin, and no other
-/// is while that map lives: until the mapper has it, it stands in for the map.
+/// is while that map lives: until the mapper has it, it stands in for the map. Where two later
+/// clouds fit each other but not that one, the mapper is asked for a new map, and the two begin it;
+/// so what does not fit a map of one cloud is answered when the next one is there.
 class LocaliserService {
  public:
   LocaliserService(bus::Bus& bus, bus::Health& health, const LocaliserServiceConfig& config);
@@ -66,13 +70,28 @@ class LocaliserService {
     std::int64_t arrival_us;
   };
 
+  // A cloud with what is known of it.
+  struct Answer {
+    Waiting waiting;
+    std::optional<Pose2> T_odom_base;
+    matching::Localisation found;
+    std::int64_t map_id = 0, map_version = 0;
+    std::int64_t elapsed_us = 0;
+  };
+
   void take_cloud(const pointcloud_t& message);
   void take_odometry(const pose_t& message);
   void carry_on(const StampedPose2& T_odom_base);
   void take_map(const map_update_t& message);
   void follow_mapper();
   bool map_is_due(std::int64_t now_us);
-  void localise(const Cloud& cloud);
+  Answer localise(Waiting waiting);
+  void decide(Answer answer, std::int64_t now_us);
+  bool is_first_in_doubt(const Answer& answer);
+  bool has_undecided(std::int64_t now_us);
+  void ask_for_new_map(std::int64_t now_us);
+  void publish_undecided();
+  void publish(const Answer& answer);
   matching::Localisation locate(const Cloud& cloud, const std::optional<Pose2>& T_odom_base);
   matching::Localisation locate_without_map(const Cloud& cloud,
                                             const std::optional<Pose2>& T_odom_base);
@@ -96,6 +115,10 @@ class LocaliserService {
   std::optional<std::int64_t> unanswered_utime_us_;
   std::optional<std::int64_t> unanswered_since_us_;
   PoseOutput pose_output_;
+  OriginDoubt origin_doubt_;
+  // What does not fit a map of one cloud: one waits for the next cloud, two for a new map.
+  std::vector<Answer> undecided_;
+  std::int64_t undecided_since_us_ = 0;
 };
 
 }  // namespace voxlist::services

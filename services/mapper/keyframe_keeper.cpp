@@ -91,6 +91,18 @@ void KeyframeKeeper::add(mapping::Keyframe keyframe) {
   write_waiting(kWrittenAtOnce);
 }
 
+bool KeyframeKeeper::begin_anew(std::int64_t new_map_id) try {
+  if (store_) store_->begin_anew(new_map_id);
+  map_id_ = new_map_id;
+  waiting_.clear();
+  waiting_bytes_ = 0;
+  health_.clear("keyframes");
+  return true;
+} catch (const io::FileError& error) {
+  fail("keyframes", error.what());
+  return false;
+}
+
 void KeyframeKeeper::look_after() {
   if (!store_) return;
   store_->is_in_place() ? write_waiting(kWrittenAtOnce) : move_to_fresh_folder();

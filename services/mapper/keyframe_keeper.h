@@ -52,6 +52,10 @@ class KeyframeKeeper {
 
   void add(mapping::Keyframe keyframe);
 
+  /// Gives all keyframes up for an empty map of that id; their file is kept aside. False, and an
+  /// error in HEALTH, when the disk does not let it: then nothing has changed.
+  bool begin_anew(std::int64_t new_map_id);
+
   /// Writes some of what waits, and looks whether the folder is still there. Call it twice a
   /// second.
   void look_after();

@@ -119,10 +119,16 @@ void MapperService::decide(const localisation_t& message) {
   auto cloud = take_waiting_cloud(message.utime);
   const auto pose = pose_of(message);
   if (!pose) return;
+  if (version() > 0) confirm();
   path_.add({message.utime, *pose});
   if (!config_.extend || !keyframes_.has_room()) return;
   if (!cloud) return health_.count("LOCALISATION/cloud_missing");
   if (builder_.wants(*cloud, *pose)) add(std::move(*cloud), *pose);
+}
+
+void MapperService::confirm() {
+  is_confirmed_ = true;
+  health_.clear("given_up");
 }
 
 // Those before it are not decided on any more.
@@ -142,6 +148,7 @@ void MapperService::add(Cloud cloud, const Pose2& pose) {
 }
 
 void MapperService::take_request(const map_request_t& message) {
+  if (message.want == map_request_t::WANT_NEW_MAP) give_up(message.map_id);
   send_word(message.utime);
   switch (message.want) {
     case map_request_t::WANT_MAP:
@@ -153,10 +160,28 @@ void MapperService::take_request(const map_request_t& message) {
       save_wanted_ = true;
       return;
     case map_request_t::WANT_WORD:
+    case map_request_t::WANT_NEW_MAP:
       return;
     default:
       return health_.count("MAP_REQUEST/unknown_want");
   }
+}
+
+// Only a map that is next to nothing: whoever asks, no more than one cloud is lost.
+void MapperService::give_up(std::int64_t map_id) {
+  const bool is_of_one = version() <= 1 && !is_confirmed_;
+  const std::int64_t new_id = std::max(new_map_id(), map_id_ + 1);
+  if (!config_.extend || map_id != map_id_ || !is_of_one || !keyframes_.begin_anew(new_id))
+    return health_.count("MAP_REQUEST/new_map_refused");
+  map_id_ = new_id;
+  builder_.clear();
+  path_ = {};
+  sender_.clear();
+  whole_maps_queued_ = resends_queued_ = 0;
+  health_.count("maps_given_up");
+  health_.raise("given_up", bus::Health::State::kWarning,
+                "the map's first cloud was given up, as no other fits it: was something before the "
+                "scanner?");
 }
 
 bus::MapChange MapperService::nothing_new() const {

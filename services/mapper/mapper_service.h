@@ -50,8 +50,8 @@ struct MapperServiceConfig {
 /// version. Each request is answered by the map's id and version, which are also told at the start
 /// and to who speaks of another map. Each keyframe goes to disk at once, so that neither kill -9
 /// nor a power cut loses one; a disk that is full is an error in HEALTH until what could not be
-/// written is. A folder that vanishes costs nothing either: the map goes on in a fresh one beside
-/// it.
+/// written is. A map whose only cloud no other fits is given up when it is asked for. A folder that
+/// vanishes costs nothing either: the map goes on in a fresh one beside it.
 class MapperService {
  public:
   /// Loads the folder's map. Throws FileError when there is one that cannot be read, when no folder
@@ -70,9 +70,11 @@ class MapperService {
   void take_cloud(const pointcloud_t& message);
   void take_localisation(const localisation_t& message);
   void take_request(const map_request_t& message);
+  void give_up(std::int64_t map_id);
   void take_health(const health_t& message);
   void restore(mapping::Keyframe keyframe);
   void decide(const localisation_t& message);
+  void confirm();
   void add(Cloud cloud, const Pose2& pose);
   std::optional<Cloud> take_waiting_cloud(std::int64_t utime_us);
   void send_change(std::int64_t base_version);
@@ -92,7 +94,8 @@ class MapperService {
   mapping::MapBuilder builder_;
   TravelledPath path_;
   KeyframeKeeper keyframes_;
-  const std::int64_t map_id_;
+  std::int64_t map_id_;
+  bool is_confirmed_ = false;  // a cloud was placed by what the map's first one saw
   service::CloudInput cloud_input_;
   std::deque<Cloud> recent_clouds_;
   bus::PacedSender sender_;

@@ -58,6 +58,25 @@ TEST(MapStore, KeepsADamagedFileAsideAndGoesOnWithWhatIsWhole) {
   EXPECT_EQ(numbers_in(map), (std::vector<int>{1, 2, 3}));
 }
 
+TEST(MapStore, KeepsAMapAsideThatIsGivenUp) {
+  const TemporaryFolder folder;
+  const auto map = make_map(folder, 1);
+  const std::string before = io::read_file(map / kKeyframeFile);
+  {
+    MapStore store(map, 7, ignore);
+    store.begin_anew(43);
+    EXPECT_EQ(store.map_id(), 43);
+    EXPECT_EQ(store.keyframes().size(), 0u);
+    store.begin_anew(44);
+    store.append(keyframe(5));
+    EXPECT_TRUE(store.is_in_place());
+  }
+  EXPECT_EQ(io::read_file(map / "keyframes.voxlist.given-up"), before);
+  EXPECT_FALSE(fs::exists(map / "keyframes.voxlist.given-up-1")) << "an empty file is no evidence";
+  EXPECT_EQ(load_map(map).warning, "");
+  EXPECT_EQ(numbers_in(map), (std::vector<int>{5}));
+}
+
 TEST(MapStore, LosesAtMostTheTornRecord) {
   const TemporaryFolder folder;
   const auto map = make_map(folder, 3);

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <optional>
@@ -286,6 +287,7 @@ TEST(LocaliserService, GoesOnInTheMappersMapWhenItsFirstWordWasLost) {
   EXPECT_NEAR(found.modes[0].pose[0], 0.3, 0.03);
 }
 
+// The mapper is asked for a new map, and has none.
 TEST(LocaliserService, SetsNoSecondOriginWhereNothingFitsTheFirst) {
   Scene scene;
   scene.begin({}, kStart_us);
@@ -295,12 +297,44 @@ TEST(LocaliserService, SetsNoSecondOriginWhereNothingFitsTheFirst) {
   scene.bus.publish(bus::kCloud, bus::to_message(lid, "base", 0));
   scene.run(kStart_us);
   for (int i = 1; i < 20; ++i) {
-    scene.send_cloud(kStart_us + i * 1'000'000);
-    scene.run(kStart_us + i * 1'000'000);
-    scene.run(kStart_us + i * 1'000'000 + 600'000);
-    EXPECT_NE(scene.localisations.back().state, localisation_t::STATE_TRACKING);
+    scene.send_cloud(kStart_us + i * 3'000'000);
+    scene.run(kStart_us + i * 3'000'000);
+    scene.run(kStart_us + i * 3'000'000 + 600'000);
+    scene.run(kStart_us + i * 3'000'000 + 2'900'000);
   }
-  EXPECT_EQ(scene.localisations.size(), 20u);
+  ASSERT_EQ(scene.localisations.size(), 20u);
+  for (std::size_t i = 1; i < 20; ++i)
+    EXPECT_NE(scene.localisations[i].state, localisation_t::STATE_TRACKING) << i;
+  EXPECT_EQ(scene.localisations[0].state, localisation_t::STATE_TRACKING);
+}
+
+// An answer waits for the next cloud, but not for ever; two that fit each other ask for a new map.
+TEST(LocaliserService, AsksForANewMapWhereTwoCloudsFitEachOtherAndNotTheFirst) {
+  Scene scene;
+  scene.begin({}, kStart_us);
+  Cloud lid;
+  lid.utime_us = kStart_us;
+  for (int i = 0; i < 300; ++i) lid.points.emplace_back(0.2F, 0.001F * static_cast<float>(i), 0.5F);
+  scene.bus.publish(bus::kCloud, bus::to_message(lid, "base", 0));
+  scene.run(kStart_us);
+  const auto asked = [&] {
+    return std::ranges::count(scene.requests, int{map_request_t::WANT_NEW_MAP},
+                              &map_request_t::want);
+  };
+  scene.send_cloud(kStart_us + 1'000'000);
+  scene.run(kStart_us + 1'000'000);
+  scene.run(kStart_us + 1'600'000);  // no mapper has the lid
+  EXPECT_EQ(scene.localisations.size(), 1u);
+  EXPECT_EQ(asked(), 0);
+  scene.send_cloud(kStart_us + 2'000'000, 0.1F);
+  scene.run(kStart_us + 2'000'000);
+  EXPECT_EQ(asked(), 1);
+  scene.run(kStart_us + 3'900'000);
+  EXPECT_EQ(scene.localisations.size(), 1u);
+  scene.run(kStart_us + 4'100'000);
+  ASSERT_EQ(scene.localisations.size(), 3u);
+  for (std::size_t i = 1; i < 3; ++i)
+    EXPECT_NE(scene.localisations[i].state, localisation_t::STATE_TRACKING) << i;
 }
 
 TEST(LocaliserService, ACloudThatTellsNothingIsNoOrigin) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <filesystem>
 #include <optional>
 #include <vector>
 #include <voxlist/health_t.hpp>
@@ -66,6 +67,15 @@ struct Scene {
     map_request_t message{};
     message.want = want;
     message.first = first;
+    bus.publish(bus::kMapRequest, message);
+    run();
+  }
+
+  void request_new_map(std::int64_t map_id) {
+    map_request_t message{};
+    message.utime = now_us;
+    message.want = map_request_t::WANT_NEW_MAP;
+    message.map_id = map_id;
     bus.publish(bus::kMapRequest, message);
     run();
   }
@@ -507,6 +517,52 @@ TEST(Mapper, AddsNoPoseOfAnotherVersionOfItsMap) {
     EXPECT_EQ(scene.assembler.held()->version, 1);
     EXPECT_EQ(scene.updates.back().utime, version + 2) << "the localiser waits for an answer";
   }
+}
+
+TEST(Mapper, GivesUpAMapWhoseOnlyCloudNoOtherFits) {
+  const TemporaryFolder folder;
+  Scene scene(folder.string());
+  scene.request(map_request_t::WANT_MAP);
+  scene.drive(1, {});
+  scene.drive(2, {}, localisation_t::STATE_LOST);
+  const std::int64_t id = scene.assembler.held()->map_id;
+  scene.request_new_map(id);
+  scene.request(map_request_t::WANT_MAP);
+  EXPECT_NE(scene.updates.back().map_id, id);
+  EXPECT_EQ(scene.updates.back().version, 0);
+  EXPECT_NE(scene.health.message().find("first cloud was given up"), std::string::npos);
+
+  scene.drive(3, {});
+  EXPECT_EQ(scene.assembler.held()->version, 1);
+  scene.drive(4, {1.0, 0.0, 0.0});
+  EXPECT_EQ(scene.health.message(), "");
+  scene.service.reset();
+  const test::StoredMap stored = test::load_map(folder.string());
+  ASSERT_EQ(stored.keyframes.size(), 2u);
+  EXPECT_EQ(stored.keyframes[0].cloud.utime_us, 3 * kSecond_us);
+  EXPECT_EQ(stored.warning, "");
+  EXPECT_TRUE(std::filesystem::exists(folder / "keyframes.voxlist.given-up"));
+}
+
+TEST(Mapper, GivesUpNoMapThatASecondCloudFitsOrThatItOnlyServes) {
+  const TemporaryFolder folder;
+  std::int64_t id = 0;
+  {
+    Scene scene(folder.string());
+    scene.request(map_request_t::WANT_MAP);
+    scene.drive(1, {});
+    id = scene.assembler.held()->map_id;
+    scene.request_new_map(id + 1);
+    EXPECT_EQ(scene.updates.back().map_id, id) << "it was asked about another map";
+    scene.drive(2, {0.1, 0.0, 0.0});
+    scene.request_new_map(id);
+    EXPECT_EQ(scene.updates.back().map_id, id) << "a second cloud was placed in it";
+    EXPECT_EQ(scene.updates.back().version, 1);
+  }
+  Scene serving(folder.string(), false);
+  serving.request_new_map(id);
+  EXPECT_EQ(serving.updates.back().map_id, id);
+  EXPECT_EQ(test::load_map(folder.string()).keyframes.size(), 1u);
 }
 
 TEST(Mapper, DecidesOnACloudOnce) {

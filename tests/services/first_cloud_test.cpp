@@ -1,0 +1,176 @@
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <optional>
+#include <vector>
+#include <voxlist/localisation_t.hpp>
+#include <voxlist/map_request_t.hpp>
+#include <voxlist/map_update_t.hpp>
+#include <voxlist/pointcloud_t.hpp>
+
+#include "services/localiser/localiser_service.h"
+#include "services/mapper/mapper_service.h"
+#include "tests/stored_map.h"
+#include "tests/temporary_folder.h"
+#include "voxlist/bus/bus.h"
+#include "voxlist/bus/convert.h"
+#include "voxlist/bus/health.h"
+
+namespace voxlist::services {
+namespace {
+
+constexpr std::int64_t kStart_us = 1'700'000'000'000'000;
+
+// A room as it is seen x_m ahead of its middle.
+Cloud room(float x_m) {
+  Cloud cloud;
+  for (float s = -3.f; s < 3.f; s += 0.06f) {
+    for (float z = 0.f; z < 2.f; z += 0.1f) {
+      cloud.points.emplace_back(s - x_m, 2.5f, z);
+      cloud.points.emplace_back(3.f - x_m, s, z);
+      if (s < 1.f) cloud.points.emplace_back(-3.f - x_m, s, z);
+      if (s < -1.f) cloud.points.emplace_back(s - x_m, -2.f, z);
+      if (s > 0.f && s < 0.5f) cloud.points.emplace_back(s + 1.f - x_m, 1.5f, z);
+    }
+  }
+  return cloud;
+}
+
+// A cloth over the scanner.
+Cloud covered() {
+  Cloud cloud;
+  for (float a = 0.f; a < 6.28f; a += 0.05f)
+    for (float z = 0.f; z < 0.6f; z += 0.02f) {
+      const float r_m = 0.35f + 0.1f * std::sin(5.f * a) * std::cos(20.f * z);
+      cloud.points.emplace_back(r_m * std::cos(a), r_m * std::sin(a), z);
+    }
+  return cloud;
+}
+
+// A service on a bus of its own.
+template <class Service, class Config>
+struct Side {
+  Side(const char* name, const Config& config) : health(name), service(bus, health, config) {}
+
+  bus::Bus bus{{.url = "memq://", .prefix = ""}};
+  bus::Health health;
+  Service service;
+};
+
+// Localiser and mapper, and a network between them.
+class FirstCloud : public testing::Test {
+ protected:
+  FirstCloud() {
+    MapperServiceConfig config;
+    config.folder = folder_.string();
+    mapper_.emplace("mapper", config);
+    mapper_->bus.subscribe(bus::kMapUpdate, [this](const map_update_t& m) {
+      localiser_->bus.publish(bus::kMapUpdate, m);
+    });
+    start_localiser();
+  }
+
+  void start_localiser() {
+    localiser_.emplace("localiser", LocaliserServiceConfig{});
+    localiser_->bus.subscribe(bus::kLocalisation, [this](const localisation_t& m) {
+      answers_.push_back(m);
+      mapper_->bus.publish(bus::kLocalisation, m);
+    });
+    localiser_->bus.subscribe(bus::kMapRequest, [this](const map_request_t& m) {
+      mapper_->bus.publish(bus::kMapRequest, m);
+    });
+    run(0.5);
+  }
+
+  void run(double seconds) {
+    for (const std::int64_t end_us = now_us_ + std::llround(seconds * 1e6); now_us_ < end_us;) {
+      now_us_ += 10'000;
+      localiser_->bus.handle(std::chrono::milliseconds(0));
+      localiser_->service.tick(now_us_);
+      mapper_->bus.handle(std::chrono::milliseconds(0));
+      mapper_->service.tick(now_us_);
+    }
+  }
+
+  // Returns its utime.
+  std::int64_t send(Cloud cloud) {
+    cloud.utime_us = now_us_;
+    for (bus::Bus* bus : {&localiser_->bus, &mapper_->bus})
+      bus->publish(bus::kCloud, bus::to_message(cloud, "base", seq_));
+    ++seq_;
+    run(1.0);
+    return cloud.utime_us;
+  }
+
+  const localisation_t* answer_to(std::int64_t utime_us) const {
+    const localisation_t* found = nullptr;
+    for (const localisation_t& answer : answers_) {
+      if (answer.utime != utime_us) continue;
+      EXPECT_EQ(found, nullptr) << "answered twice";
+      found = &answer;
+    }
+    return found;
+  }
+
+  bool is_tracking(std::int64_t utime_us, double x_m) const {
+    const localisation_t* answer = answer_to(utime_us);
+    return answer != nullptr && answer->state == localisation_t::STATE_TRACKING &&
+           std::abs(answer->modes.at(0).pose[0] - x_m) < 0.03;
+  }
+
+  bool is_lost(std::int64_t utime_us) const {
+    const localisation_t* answer = answer_to(utime_us);
+    return answer != nullptr && answer->state != localisation_t::STATE_TRACKING;
+  }
+
+  const test::TemporaryFolder folder_;
+  std::optional<Side<LocaliserService, LocaliserServiceConfig>> localiser_;
+  std::optional<Side<MapperService, MapperServiceConfig>> mapper_;
+  std::vector<localisation_t> answers_;
+  std::int64_t now_us_ = kStart_us;
+  std::int32_t seq_ = 0;
+};
+
+TEST_F(FirstCloud, IsGivenUpWhenTheNextTwoFitEachOtherAlone) {
+  const auto lid = send(covered()), first = send(room(0.F));
+  std::vector<std::int64_t> later;
+  for (int i = 1; i <= 5; ++i) later.push_back(send(room(0.2F * static_cast<float>(i))));
+  EXPECT_TRUE(is_tracking(lid, 0.0));
+  EXPECT_TRUE(is_tracking(first, 0.0)) << "the origin now";
+  for (int i = 1; i <= 5; ++i)
+    EXPECT_TRUE(is_tracking(later[static_cast<std::size_t>(i - 1)], 0.2 * i)) << i;
+  EXPECT_NE(answer_to(lid)->map_id, answer_to(first)->map_id);
+  const test::StoredMap stored = test::load_map(folder_.string());
+  ASSERT_GE(stored.keyframes.size(), 2u);
+  EXPECT_EQ(stored.keyframes[0].cloud.utime_us, first);
+}
+
+TEST_F(FirstCloud, StaysWhenOnlyTheSecondIsBad) {
+  const auto first = send(room(0.F)), bad = send(covered()), third = send(room(0.2F));
+  EXPECT_TRUE(is_tracking(first, 0.0));
+  EXPECT_TRUE(is_lost(bad));
+  EXPECT_TRUE(is_tracking(third, 0.2));
+  EXPECT_EQ(answer_to(first)->map_id, answer_to(third)->map_id);
+}
+
+TEST_F(FirstCloud, StaysOnceASecondHasFit) {
+  const auto first = send(room(0.F)), second = send(room(0.1F));
+  for (int i = 0; i < 15; ++i) EXPECT_TRUE(is_lost(send(covered()))) << i;
+  const auto back = send(room(0.2F));
+  EXPECT_TRUE(is_tracking(second, 0.1));
+  EXPECT_EQ(answer_to(back)->map_id, answer_to(first)->map_id);
+}
+
+TEST_F(FirstCloud, OfAMapThatWasThereIsGivenUpAfterTenCloudsThatAreLost) {
+  const auto lid = send(covered());
+  start_localiser();
+  for (int i = 0; i < 10; ++i) EXPECT_TRUE(is_lost(send(room(0.F)))) << i;
+  send(room(0.F));
+  const auto last = send(room(0.1F));
+  EXPECT_TRUE(is_tracking(last, 0.1));
+  EXPECT_NE(answer_to(last)->map_id, answer_to(lid)->map_id);
+}
+
+}  // namespace
+}  // namespace voxlist::services
