@@ -242,6 +242,7 @@ void LocaliserService::publish(const Answer& answer) {
   message.map_version = answer.map_version;
   message.elapsed_us = static_cast<std::int32_t>(answer.elapsed_us);
   if (found.odometry_error) tell(*found.odometry_error);
+  if (found.odometry_bias) tell(*found.odometry_bias);
   health_.count(std::string("state/") + name(found.state));
   tell(found.state);
   unanswered_utime_us_.reset();
@@ -299,6 +300,14 @@ void LocaliserService::tell(const matching::OdometryError& error) {
           "ODOMETRY disagrees with the scans, which are believed: over {:.2f} m in {:.1f} s "
           "it is off by {:.2f} m and {:.1f} deg. Do wheels slip?",
           error.way_m, error.seconds, error.distance_m, error.turn_rad / kRadPerDeg));
+}
+
+void LocaliserService::tell(const matching::OdometryBias& bias) {
+  constexpr double kPercent = 100.0;
+  health_.gauge("odometry_scale_percent", bias.scale * kPercent);
+  health_.gauge("odometry_scale_sigma_percent", bias.scale_sigma * kPercent);
+  health_.gauge("odometry_heading_deg", bias.heading_rad / kRadPerDeg);
+  health_.gauge("odometry_heading_sigma_deg", bias.heading_sigma_rad / kRadPerDeg);
 }
 
 void LocaliserService::tell(matching::LocalisationState state) {

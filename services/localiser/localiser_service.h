@@ -97,6 +97,7 @@ class LocaliserService {
                                             const std::optional<Pose2>& T_odom_base);
   void tell(matching::LocalisationState state);
   void tell(const matching::OdometryError& error);
+  void tell(const matching::OdometryBias& bias);
   void compare_times(std::int64_t cloud_utime_us, bool has_odometry);
 
   bus::Bus& bus_;

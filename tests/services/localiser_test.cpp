@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <vector>
+#include <voxlist/health_t.hpp>
 #include <voxlist/localisation_t.hpp>
 #include <voxlist/map_request_t.hpp>
 #include <voxlist/map_update_t.hpp>
@@ -439,6 +440,28 @@ TEST(LocaliserService, TellsThatOdometryDisagreesWithTheScansUntilItAgreesAgain)
       << told[4];
   EXPECT_NE(told[4].find("s it is off by 0.33 m and 0."), std::string::npos) << told[4];
   EXPECT_EQ(told[23].find("disagrees"), std::string::npos) << told[23];
+}
+
+TEST(LocaliserService, TellsWhatOdometryIsOffByAllTheTime) {
+  Scene scene;
+  scene.begin(map_of_room(), kStart_us);
+  for (int i = 0; i < 8; ++i) {
+    const std::int64_t now_us = kStart_us + i * 1'000'000;
+    scene.bus.publish(bus::kOdometry, bus::to_message(StampedPose2{now_us, {0.33 * i, 0.0, 0.0}}));
+    scene.send_cloud(now_us, 0.3F * static_cast<float>(i));
+    scene.run(now_us);
+    scene.run(now_us + 600'000);  // no mapper answers: it waits for 0.5 s
+  }
+  const health_t health = scene.health.last(kStart_us);
+  const auto gauge = [&](const std::string& name) {
+    const auto found = std::ranges::find(health.gauges, name, &gauge_t::name);
+    return found == health.gauges.end() ? 1e9 : found->value;
+  };
+  const double sigma = gauge("odometry_scale_sigma_percent");
+  EXPECT_LT(sigma, 4.0);
+  EXPECT_NEAR(gauge("odometry_scale_percent"), -9.1, 3.0 * sigma);
+  EXPECT_LT(gauge("odometry_scale_percent"), -2.0);
+  EXPECT_NEAR(gauge("odometry_heading_deg"), 0.0, 3.0 * gauge("odometry_heading_sigma_deg"));
 }
 
 TEST(LocaliserService, TellsThatOdometryIsNoPose) {

@@ -17,9 +17,9 @@ constexpr std::int64_t kLongest_us = 10'000'000;
 constexpr std::size_t kMostSamples = 200;
 
 // Odometry disagrees from so many standard deviations on. Along a street of 280 sparse scans it
-// comes to 3.5 with good wheels, to 3.8 where they slip by 0.6 m, and to 6.3 where they turn by 8
+// comes to 2.4 with good wheels, to 5.4 where they slip by 0.6 m, and to 6.3 where they turn by 8
 // deg.
-constexpr double kDisagrees = 3.6;
+constexpr double kDisagrees = 3.0;
 
 Eigen::Matrix3d spread(double way_m, double turned_rad) {
   const double turn = kTurn_rad + kTurnShare * turned_rad + kTurn_rad_per_m * way_m;
