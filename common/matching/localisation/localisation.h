@@ -39,6 +39,10 @@ struct PoseMode {
   double probability = 0.0;
 };
 
+/// Whether its covariance lets a pose be told as one: known to 0.3 m, one standard deviation, in
+/// the worst direction.
+bool is_exact(const PoseMode& mode);
+
 /// What is known of where one cloud was taken.
 struct Localisation {
   std::int64_t utime_us = 0;

@@ -96,6 +96,31 @@ LocalisationState state_of(const std::vector<PoseMode>& modes) {
   return any >= kLikely ? LocalisationState::kAmbiguous : LocalisationState::kLost;
 }
 
+// What the place that was found may be off by (m, rad), as standard deviations, for all that the
+// search knows; and how far the surfaces are asked about it.
+constexpr double kOffPlace_m = 1.0, kOffPlace_rad = 0.1;
+constexpr double kRoundPlace_m = 0.3, kRoundPlace_rad = 0.05;
+
+// What the surfaces in sight hold the best place by. Along a bare corridor that is nothing, however
+// probable the corridor: then the place is not told as one pose.
+void tell_what_holds(Matcher& matcher, const PreparedScan& scan, Localisation& result) {
+  PoseMode& best = result.modes.front();
+  const UncertainPose vague{best.T_map_base,
+                            Eigen::Vector3d(kOffPlace_m * kOffPlace_m, kOffPlace_m * kOffPlace_m,
+                                            kOffPlace_rad * kOffPlace_rad)
+                                .asDiagonal()};
+  const PoseWindow window{best.T_map_base, kRoundPlace_m, kRoundPlace_m, kRoundPlace_rad};
+  PoseMode held = best;
+  held.covariance = vague.covariance;
+  for (const MatchMode& mode : matcher.track(scan, window, vague).modes)
+    if (distance_m(mode.pose, best.T_map_base) < kRoundPlace_m &&
+        mode.covariance.trace() < held.covariance.trace())
+      held.covariance = mode.covariance;
+  if (is_exact(held)) return;
+  best.covariance = held.covariance;
+  result.state = LocalisationState::kAmbiguous;
+}
+
 }  // namespace
 
 Localisation from_match(const PreparedScan& scan, const Match& match) {
@@ -122,6 +147,7 @@ Localisation LostSearch::add(const PreparedScan& scan, const std::optional<Pose2
   result.modes = hypotheses_.modes();
   result.state = state_of(result.modes);
   if (!result.modes.empty()) result.confidence = result.modes.front().probability;
+  if (result.tracking()) tell_what_holds(matcher, scan, result);
   return result;
 }
 

@@ -52,6 +52,16 @@ constexpr double kMostOfScan = 0.9;
 // The shortest reach (m): an ordinary room and the corridor before it; then doubled.
 constexpr double kShortestReach_m = 12.0;
 
+// A scan that sees nothing farther away (m) is covered, by a lid or a hand: it tells nothing of
+// where it is.
+constexpr double kCovered_m = 0.5;
+
+bool is_covered(const Cloud& cloud, const std::vector<std::uint32_t>& in_range) {
+  return std::none_of(in_range.begin(), in_range.end(), [&](std::uint32_t i) {
+    return (cloud.points[i] - cloud.origin(i)).norm() > kCovered_m;
+  });
+}
+
 std::vector<std::uint32_t> within_range(const Cloud& cloud, double max_range_m) {
   std::vector<std::uint32_t> in_range;
   in_range.reserve(cloud.points.size());
@@ -62,6 +72,7 @@ std::vector<std::uint32_t> within_range(const Cloud& cloud, double max_range_m) 
         in_lattice(cloud.origin(i), kFinestResolution_m))
       in_range.push_back(i);
   }
+  if (is_covered(cloud, in_range)) in_range.clear();
   return in_range;
 }
 

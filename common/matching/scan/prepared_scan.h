@@ -57,7 +57,8 @@ class PreparedScan {
   /// the edge.
   std::vector<Eigen::Vector3f> filter_points() const;
 
-  /// Indices of the cloud's points that are within range and in the voxels' lattice.
+  /// Indices of the cloud's points that are within range and in the voxels' lattice. None where a
+  /// lid covers the sensor: all points within 0.5 m.
   const std::vector<std::uint32_t>& in_range() const { return in_range_; }
 
   /// For a search of the whole map: of the points with these indices, which its map finds telling,

@@ -23,7 +23,9 @@ class OnePose : public Matcher {
   }
   Match track(const PreparedScan& scan, const std::optional<PoseWindow>& window,
               const UncertainPose&) override {
-    return match(scan, window);
+    Match match = this->match(scan, window);
+    match.modes.front().covariance = held;
+    return match;
   }
   Match match_rivals(const PreparedScan& scan) override {
     ++asked;
@@ -33,6 +35,8 @@ class OnePose : public Matcher {
   void map_grew(const ChangedBlocks&) override {}
 
   int asked = 0;
+  // What a refinement that knows nothing beforehand has of the pose.
+  Eigen::Matrix3d held = Eigen::Matrix3d::Zero();
 
  private:
   const EvidenceMap evidence_;
@@ -72,6 +76,17 @@ TEST(LostSearch, IsSureOfAPoseThatExplainsAllAndStandsAlone) {
   OnePose matcher(lost.map, lost.truth, 0.88);
   EXPECT_TRUE(lost.find(matcher).tracking());
   EXPECT_EQ(matcher.asked, 0);
+}
+
+// As along a corridor: the place is right, and no surface tells where in it.
+TEST(LostSearch, TellsNoPoseThatNoSurfaceHolds) {
+  const Lost lost(0.0);
+  OnePose matcher(lost.map, lost.truth, 0.88);
+  matcher.held(0, 0) = 1.0;
+  const Localisation found = lost.find(matcher);
+  EXPECT_EQ(found.state, LocalisationState::kAmbiguous);
+  ASSERT_EQ(found.modes.size(), 1u);
+  EXPECT_EQ(found.modes.front().covariance(0, 0), 1.0);
 }
 
 TEST(LostSearch, AsksForRivalsOfAPoseThatDoesNotExplainAll) {

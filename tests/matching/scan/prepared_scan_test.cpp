@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "tests/matching/synthetic_room.h"
@@ -119,6 +120,17 @@ TEST(PreparedScan, OfNothingHasNothing) {
     EXPECT_TRUE(scan.near_rays().empty());
     EXPECT_TRUE(scan.search_points(scan.in_range()).empty());
   }
+}
+
+TEST(PreparedScan, UnderALidHasNothing) {
+  Cloud cloud;
+  for (int i = 0; i < 200; ++i) {
+    const auto angle = static_cast<float>(i) * 0.1F;
+    cloud.points.push_back({0.4F * std::cos(angle), 0.4F * std::sin(angle), 0.001F * float(i)});
+  }
+  EXPECT_TRUE(PreparedScan(cloud).in_range().empty());
+  cloud.points.push_back({0.6F, 0.0F, 0.0F});
+  EXPECT_EQ(PreparedScan(cloud).in_range().size(), 201u);
 }
 
 }  // namespace
