@@ -5,7 +5,6 @@
 // kind and floor, first seed, last seed, and a file for what fit_confidence.py reads.
 #include <tbb/global_control.h>
 
-#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -14,6 +13,7 @@
 #include <string>
 
 #include "tests/bench/answers.h"
+#include "tests/bench/drives/claims.h"
 #include "tests/bench/figures.h"
 #include "tests/bench/test_drive.h"
 #include "tests/bench/test_floor.h"
@@ -21,34 +21,6 @@
 
 namespace voxlist::bench {
 namespace {
-
-// How often the first mode was right where its probability was said to be so much.
-struct Reliability {
-  struct Bin {
-    int modes = 0, right = 0;
-    double said = 0.0;
-  };
-  static constexpr std::array<double, 9> kUpTo{0.1, 0.3, 0.5, 0.7, 0.9, 0.97, 0.99, 0.999, 1.01};
-  std::array<Bin, kUpTo.size()> bins;
-
-  void add(double said, bool is_right) {
-    std::size_t i = 0;
-    while (said >= kUpTo[i]) ++i;
-    ++bins[i].modes;
-    bins[i].right += is_right;
-    bins[i].said += said;
-  }
-
-  void print() const {
-    std::printf("probability said   scans   said on average   right\n");
-    for (std::size_t i = 0; i < bins.size(); ++i) {
-      if (bins[i].modes == 0) continue;
-      std::printf("below %.3f        %5d             %.3f   %.3f\n", std::min(kUpTo[i], 1.0),
-                  bins[i].modes, bins[i].said / bins[i].modes,
-                  static_cast<double>(bins[i].right) / bins[i].modes);
-    }
-  }
-};
 
 // What a map is made of.
 struct Family {

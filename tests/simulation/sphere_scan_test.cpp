@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace voxlist::simulation {
 namespace {
@@ -71,6 +72,19 @@ TEST(SphereScan, EndsAtItsRangeAndDependsOnItsSeedAlone) {
     EXPECT_LE((cloud.points[i] - cloud.origin(i)).norm(), 5.00001f);
   EXPECT_EQ(cloud.points, scan_sphere(world, {}, config, 1).points);
   EXPECT_NE(cloud.points, scan_sphere(world, {}, config, 2).points);
+}
+
+TEST(SphereScan, LaysItsRaysInRingsWhereItIsTold) {
+  SphereScanConfig config{.rays = 16 * 360, .rings = 16};
+  config.range_sd_m = 0.0;
+  std::map<int, int> rays_at;  // 0.1 deg of elevation
+  const Cloud cloud = scan_sphere(corridor(), {}, config, 1);
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    const Eigen::Vector3f ray = cloud.points[i] - cloud.origin(i);
+    ++rays_at[static_cast<int>(std::lround(1800.0 / 3.14159 * std::asin(ray.normalized().z())))];
+  }
+  ASSERT_EQ(rays_at.size(), 16u);
+  for (int ring = 0; ring < 16; ++ring) EXPECT_EQ(rays_at[-150 + 20 * ring], 360) << ring;
 }
 
 }  // namespace
