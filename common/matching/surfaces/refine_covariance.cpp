@@ -131,7 +131,7 @@ Square<kDof> believed(const Square<kDof>& information, const std::vector<Step<kD
   return l * half_shrunk * own * half_shrunk * l.transpose();
 }
 
-// What few surfels of large cubes alone tell of the direction that all hold least, those that tell
+// What few surfels of few voxels alone tell of the direction that all hold least, those that tell
 // most: they may be no surfaces, such as one ring of a laser across a corner, and nothing
 // contradicts them. So many of a hundred surfels, and one: in a corridor seen by 49 rings some 15
 // of 344 held its long axis.
@@ -167,7 +167,7 @@ Square<kDof> covariance_of(const std::vector<Correspondence<kDof>>& corresponden
   for (const auto& s : surfels) {
     const double variance = point_variance + kSharing * surfel_variance * s.weights;
     information += s.information / variance;
-    if (s.surfel->of_large_cube) told.push_back(s.information / variance);
+    if (s.surfel->of_few_voxels) told.push_back(s.information / variance);
     const auto place = places.number(cell_at(s.surfel->mean, 1.0 / kPlace_m));
     if (place == pulls.size()) pulls.push_back(Step<kDof>::Zero());
     pulls[place] += s.pull / variance;

@@ -10,6 +10,9 @@
 namespace voxlist::matching {
 namespace {
 
+// Planes through fewer voxels than this are of few: twice the fewest that make a surface.
+constexpr std::size_t kFewVoxels = 12;
+
 bool enough(std::span<const Voxel> voxels, const SurfelConfig& config) {
   return voxels.size() >= static_cast<std::size_t>(config.min_voxels);
 }
@@ -38,6 +41,7 @@ CubeShape make_surfel(const OccupancyMap& map, const Voxel& lowest, std::span<co
   const Eigen::Vector3d from(lowest.x, lowest.y, lowest.z);
   surfel = {(from + plane.mean + Eigen::Vector3d::Constant(0.5)) * resolution_m, plane.normal,
             tilt_variance(plane, voxels.size())};
+  surfel.of_few_voxels = voxels.size() < kFewVoxels;
   find_side(map, voxels, lowest, surfel);
   return shape;
 }

@@ -92,7 +92,8 @@ void SurfelMap::fit(std::size_t level, const Voxel& position, Cube& cube) const 
   // together.
   if (level > 0 && voxels.size() > most_voxels(level, config_)) return;
   const CubeShape shape = fit_surfels(map_, lowest, voxels, config_, cube.sides, cube.count);
-  for (Surfel& side : cube.sides) side.of_large_cube = level > 0;
+  if (level > 0)
+    for (Surfel& side : cube.sides) side.of_few_voxels = true;
   if (shape != CubeShape::kTooFew || level + 1 == levels_.size()) return;
   cube.speaker = cube_at(level + 1, {floor_div(position.x, 2), floor_div(position.y, 2),
                                      floor_div(position.z, 2)})

@@ -21,8 +21,10 @@ struct Surfel {
   double tilt_variance = 0.0;
   /// Rays are known to have passed on both sides (a thin board), or on neither.
   bool two_sided = true;
-  /// It stands for smaller cubes, which hold too few voxels: a plane through few points.
-  bool of_large_cube = false;
+  /// A plane through few voxels, of a small cube or of a large one that stands for emptier ones: by
+  /// chance it may join what does not belong together, such as a column of a wall and the floor
+  /// before it.
+  bool of_few_voxels = false;
 
   /// Whether a ray from `origin` may have ended at `point` on this side of the surface.
   bool faces(const Eigen::Vector3d& origin, const Eigen::Vector3d& point) const {
