@@ -10,7 +10,6 @@
 
 #include "voxlist/io/files/file.h"
 #include "voxlist/mapping/keyframe_format.h"
-#include "voxlist/mapping/keyframe_reader.h"
 #include "voxlist/mapping/keyframe_writer.h"
 
 namespace voxlist::mapping {
@@ -32,21 +31,34 @@ int open_nameless(const std::filesystem::path& folder) {
 
 KeyframeSpool::KeyframeSpool(const std::filesystem::path& folder)
     : folder_(folder), file_(open_nameless(folder)) {
-  if (file_.get() < 0 || !write_all(file_.get(), file_header(kNoMap)))
+  const std::string header = file_header(kNoMap);
+  if (file_.get() < 0 || !write_all(file_.get(), header))
     throw io::FileError(folder_, std::string("cannot be written: ") + std::strerror(errno));
+  stored_.emplace("/proc/self/fd/" + std::to_string(file_.get()), std::vector<KeyframePlace>{});
+  bytes_ = header.size();
 }
 
-void KeyframeSpool::add(const Keyframe& keyframe) {
-  if (!write_all(file_.get(), encode_record(keyframe, kNoMap, number_++)))
+std::size_t KeyframeSpool::add(const Keyframe& keyframe) {
+  const std::size_t index = stored_->size();
+  const std::string record = encode_record(keyframe, kNoMap, static_cast<std::uint32_t>(index));
+  if (!write_all(file_.get(), record))
     throw io::FileError(folder_, std::string("cannot keep a keyframe: ") + std::strerror(errno));
+  stored_->add({bytes_, record.size()});
+  bytes_ += record.size();
+  return index;
 }
 
-void KeyframeSpool::write(const std::filesystem::path& file, std::int64_t map_id) const {
-  KeyframeReader reader("/proc/self/fd/" + std::to_string(file_.get()));
+Keyframe KeyframeSpool::read(const SpooledKeyframe& keyframe) {
+  auto found = stored_->read(keyframe.index);
+  if (!found) throw io::FileError(folder_, "the disk lost keyframes while the map was made");
+  found->T_map_base = keyframe.T_map_base;
+  return std::move(*found);
+}
+
+void KeyframeSpool::write(const std::filesystem::path& file, std::int64_t map_id,
+                          const std::vector<SpooledKeyframe>& keyframes) {
   NewKeyframeFile whole(file, map_id);
-  while (const auto keyframe = reader.next()) whole.add(*keyframe);
-  if (reader.next_number() != number_)
-    throw io::FileError(folder_, "the disk lost keyframes while the map was made");
+  for (const SpooledKeyframe& keyframe : keyframes) whole.add(read(keyframe));
   whole.commit();
 }
 

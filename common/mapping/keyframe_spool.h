@@ -2,11 +2,20 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
+#include <vector>
 
 #include "voxlist/mapping/map_builder.h"
+#include "voxlist/mapping/map_store.h"
 #include "voxlist/system/file_descriptor.h"
 
 namespace voxlist::mapping {
+
+/// One of a spool's keyframes, and where it is now: as long as a map is made, places change.
+struct SpooledKeyframe {
+  std::size_t index = 0;
+  Pose3 T_map_base = Pose3::Identity();
+};
 
 /// The keyframes of a map in the making, whose id is not known yet: on the disk, in a file without
 /// a name, which goes with this object however the process ends.
@@ -15,16 +24,21 @@ class KeyframeSpool {
   /// Throws FileError when nothing can be written in the folder.
   explicit KeyframeSpool(const std::filesystem::path& folder);
 
-  /// Throws FileError (full disk).
-  void add(const Keyframe& keyframe);
+  /// Returns its index: they are counted from 0. Throws FileError (full disk).
+  std::size_t add(const Keyframe& keyframe);
 
-  /// Writes a keyframe file of all of them, all or nothing. Throws FileError.
-  void write(const std::filesystem::path& file, std::int64_t map_id) const;
+  /// A keyframe where it is now. Throws FileError when the disk has lost it.
+  Keyframe read(const SpooledKeyframe& keyframe);
+
+  /// Writes a keyframe file of these, all or nothing. Throws FileError.
+  void write(const std::filesystem::path& file, std::int64_t map_id,
+             const std::vector<SpooledKeyframe>& keyframes);
 
  private:
   std::filesystem::path folder_;
   FileDescriptor file_;
-  std::uint32_t number_ = 0;
+  std::optional<StoredKeyframes> stored_;
+  std::uint64_t bytes_ = 0;
 };
 
 }  // namespace voxlist::mapping

@@ -67,14 +67,32 @@ TEST(KeyframeSpool, WritesWhatItWasGivenAndLeavesNothingElse) {
   const TemporaryFolder folder;
   {
     KeyframeSpool spool(folder.path());
-    for (int i = 0; i < 5; ++i) spool.add(keyframe(i));
-    spool.write(folder / kKeyframeFile, 42);
+    std::vector<SpooledKeyframe> all;
+    for (int i = 0; i < 5; ++i) all.push_back({spool.add(keyframe(i)), keyframe(i).T_map_base});
+    spool.write(folder / kKeyframeFile, 42, all);
   }
   const test::StoredMap map = test::load_map(folder.path());
   EXPECT_EQ(numbers_of(map.keyframes), first_numbers(5));
   EXPECT_EQ(map.map_id, 42);
   EXPECT_EQ(map.warning, "");
   EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1);
+}
+
+TEST(KeyframeSpool, GivesAndWritesKeyframesWhereTheyAreNow) {
+  const TemporaryFolder folder;
+  KeyframeSpool spool(folder.path());
+  for (int i = 0; i < 3; ++i) spool.add(keyframe(i));
+  const SpooledKeyframe moved{1, Pose3(Eigen::Translation3d(5.0, 6.0, 0.0))};
+  const Keyframe found = spool.read(moved);
+  EXPECT_EQ(found.cloud.points, keyframe(1).cloud.points);
+  EXPECT_TRUE(found.T_map_base.isApprox(moved.T_map_base));
+  spool.add(keyframe(3));
+  spool.write(folder / kKeyframeFile, 42, {{3, keyframe(3).T_map_base}, moved});
+  const test::StoredMap map = test::load_map(folder.path());
+  ASSERT_EQ(map.keyframes.size(), 2u);
+  EXPECT_EQ(numbers_of({map.keyframes.front()}), std::vector{3});
+  EXPECT_EQ(map.keyframes.back().cloud.origins, keyframe(1).cloud.origins);
+  EXPECT_TRUE(map.keyframes.back().T_map_base.isApprox(moved.T_map_base));
 }
 
 TEST(KeyframeSpool, SaysThatTheDiskIsFull) {

@@ -26,6 +26,19 @@ LocalisationState state_of(const Localisation& tracked) {
   return told ? LocalisationState::kTracking : LocalisationState::kAmbiguous;
 }
 
+// A pose of which nothing is known: the whole map is as near as any place.
+UncertainPose anywhere() {
+  constexpr double kAnywhere = 1e6;  // m and rad
+  return {{}, kAnywhere * kAnywhere * Eigen::Matrix3d::Identity()};
+}
+
+// A search that did not look at everything says nothing of rivals.
+LocalisationState state_of_recognised(const Localisation& found) {
+  const LocalisationState state = state_of(found);
+  const bool sure = state == LocalisationState::kTracking && found.unseen < 1.0;
+  return sure || state == LocalisationState::kLost ? state : LocalisationState::kAmbiguous;
+}
+
 // The cloud that begins a map is at the map's origin.
 Localisation origin_of_map(const PreparedScan& scan) {
   Localisation result;
@@ -110,6 +123,29 @@ Localisation Localiser::locate(const Cloud& cloud) {
                  .add(PreparedScan(cloud, config_.matcher.scan), std::nullopt, matcher());
   });
   return result;
+}
+
+Localisation Localiser::recognise(const Cloud& cloud, double here) {
+  follow_map();
+  Localisation result;
+  threads_.run([&] {
+    const PreparedScan scan(cloud, config_.matcher.scan);
+    const ReachMatch found = match_in_reach(matcher(), scan, anywhere(), here);
+    result = from_match(scan, found.match);
+    for (std::size_t i = 0; i < result.modes.size(); ++i)
+      result.modes[i].probability = found.probabilities[i];
+    result.confidence = found.best();
+  });
+  result.searched_whole_map = true;
+  result.state = state_of_recognised(result);
+  return result;
+}
+
+void Localiser::take_over(Localiser& other, const Pose2& T_this_other) {
+  track_ = std::move(other.track_);
+  search_.reset();
+  odometry_check_.clear();
+  if (track_) track_->change_map(T_this_other);
 }
 
 Localisation Localiser::localise(const PreparedScan& scan,

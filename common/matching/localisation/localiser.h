@@ -65,6 +65,15 @@ class Localiser {
   /// Locates a cloud by itself, without a guess and without memory.
   Localisation locate(const Cloud& cloud);
 
+  /// Searches the whole map for a cloud that may have been taken elsewhere, without a guess and
+  /// without memory. It is judged as in tracking, by what was measured on maps of one scan, of few
+  /// and of many. `here`: the probability, before the cloud is looked at, that it was taken where
+  /// the map is.
+  Localisation recognise(const Cloud& cloud, double here);
+
+  /// Goes on where another localiser is in its own map. `T_this_other`: from that map to this one.
+  void take_over(Localiser& other, const Pose2& T_this_other);
+
   /// Forgets where the robot was: the next cloud is searched for in the whole map.
   void forget();
 

@@ -36,6 +36,9 @@ class PoseTrack {
   UncertainPose advance(std::int64_t utime_us, const std::optional<Pose2>& T_odom_base,
                         const UncertainPose& matched);
 
+  /// Goes on in another map. `T_new_old`: from the map so far to that one.
+  void change_map(const Pose2& T_new_old) { now_.change_map(T_new_old); }
+
   /// Remembers how probable it was that the last scan's pose is right: after bad scans, more is
   /// asked of the next one.
   void doubt(double right);

@@ -20,7 +20,8 @@ constexpr double kSame_m = 0.3, kSame_rad = 0.1;
 // Fitted by tests/bench/fits/fit_places.py: whether the best place in reach is right.
 constexpr double kBias = -4.34, kSupport = -4.42, kKnown = -16.56, kSupportKnown = -0.77,
                  kRival = 13.77, kOverlap = 9.19;
-// A place that is not listed may have this share of the best one's support.
+// A place that is not listed may have this share of the best one's support, or more where the
+// search says so.
 constexpr double kUnseen = 0.9;
 
 double unexplained(double support) {
@@ -30,11 +31,11 @@ double unexplained(double support) {
 double share(int part, int all) { return static_cast<double>(part) / std::max(all, 1); }
 
 // Logarithm of the odds that the first mode is right, if it is as often as not.
-double log_odds(const std::vector<MatchMode>& modes) {
+double log_odds(const std::vector<MatchMode>& modes, double unseen) {
   const MatchMode& best = modes.front();
   const double here = unexplained(best.support);
   const double known = share(best.evidence.hits + best.evidence.misses, best.evidence.points);
-  double rival = kUnseen * best.support;
+  double rival = std::max(kUnseen, unseen) * best.support;
   if (modes.size() > 1) rival = std::max(rival, modes[1].support);
   return kBias + kSupport * here + kKnown * known + kSupportKnown * here * known +
          kRival * std::max(0.0, unexplained(rival) - here) + kOverlap * best.overlap_ratio;
@@ -76,7 +77,7 @@ void join_places(std::vector<MatchMode>& modes, std::vector<double>& weights) {
 }  // namespace
 
 std::vector<double> rank_in_reach(const UncertainPose& predicted, double in_reach,
-                                  std::vector<MatchMode>& modes) {
+                                  std::vector<MatchMode>& modes, double unseen) {
   if (modes.empty()) return {};
   const auto weight = [&](const MatchMode& mode) {
     return log_student(mahalanobis2(mode.pose, predicted)) -
@@ -89,7 +90,7 @@ std::vector<double> rank_in_reach(const UncertainPose& predicted, double in_reac
     probability.push_back(elementary::exp(weight(mode) - weight(modes.front())));
   join_places(modes, probability);
   const double found =
-      1.0 / (1.0 + (1.0 - in_reach) / in_reach * elementary::exp(-log_odds(modes)));
+      1.0 / (1.0 + (1.0 - in_reach) / in_reach * elementary::exp(-log_odds(modes, unseen)));
   double sum = 0.0;
   for (const double p : probability) sum += p;
   for (double& p : probability) p *= found / sum;

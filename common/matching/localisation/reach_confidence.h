@@ -12,7 +12,8 @@ namespace voxlist::matching {
 /// probabilities. What is missing to 1 is for none of them: the scan is bad, or the robot somewhere
 /// else. `in_reach`: the probability, before the scan is looked at, that one of them is right.
 /// Coefficients were fitted by tests/bench/fits/fit_places.py.
+/// A place that is not listed may have the share `unseen` of the best one's support.
 std::vector<double> rank_in_reach(const UncertainPose& predicted, double in_reach,
-                                  std::vector<MatchMode>& modes);
+                                  std::vector<MatchMode>& modes, double unseen = 0.0);
 
 }  // namespace voxlist::matching

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 
+#include "voxlist/geometry/elementary.h"
 #include "voxlist/matching/motion/pose_fusion.h"
 
 namespace voxlist::matching {
@@ -58,6 +59,14 @@ void TrackedPose::move_to(const UncertainPose& expected) {
   covariance_.bottomLeftCorner<2, 3>() = shared.transpose();
   covariance_.topLeftCorner<3, 3>() = expected.covariance;
   pose_ = expected.pose;
+}
+
+void TrackedPose::change_map(const Pose2& T_new_old) {
+  const auto [sine, cosine] = elementary::sine_cosine(T_new_old.yaw_rad);
+  Eigen::Matrix<double, 5, 5> turn = Eigen::Matrix<double, 5, 5>::Identity();
+  turn.topLeftCorner<2, 2>() << cosine, -sine, sine, cosine;
+  pose_ = T_new_old * pose_;
+  covariance_ = turn * covariance_ * turn.transpose();
 }
 
 void TrackedPose::learn(const UncertainPose& pose) {

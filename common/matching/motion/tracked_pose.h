@@ -27,6 +27,9 @@ class TrackedPose {
   /// Moves to where something else expects the robot now.
   void move_to(const UncertainPose& expected);
 
+  /// Goes on in another map. `T_new_old`: from the map so far to that one.
+  void change_map(const Pose2& T_new_old);
+
   /// Learns that the pose is known as this: the present one together with what a scan tells.
   void learn(const UncertainPose& pose);
 

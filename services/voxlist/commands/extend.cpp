@@ -54,7 +54,7 @@ class OpenMap {
 RunFigures place_all(ScanInput& input, MapRun& run, Console& console) {
   return carry_out(input, run, "extending", console, [&](Progress& progress) {
     while (auto scan = input.next()) {
-      run.localise(std::move(*scan));
+      run.localise(*scan);
       progress.show(input.progress());
     }
     run.finish();
@@ -80,7 +80,8 @@ int extend(const ExtendOptions& options, Console& console) {
                   options.making.prefix.of(options.making.config));
   OpenMap open(options.folder, settings.mapper, console);
   StoredMap before = open.take_map();
-  MapRun run(settings.localiser, std::move(before.builder),
+  mapping::KeyframeSpool spool(options.folder);
+  MapRun run(settings.localiser, settings.mapper, spool, std::move(before.builder),
              [&open](const mapping::Keyframe& keyframe) { open.append(keyframe); });
   const RunFigures figures = place_all(input, run, console);
   if (figures.placed == 0)
@@ -88,7 +89,8 @@ int extend(const ExtendOptions& options, Console& console) {
                                                     "{} was found in the map",
                                                     figures.scans, figures.input));
   std::vector<StampedPose3> trajectory = trajectory_of(options.folder, before.poses);
-  trajectory.insert(trajectory.end(), run.trajectory().begin(), run.trajectory().end());
+  const std::vector<StampedPose3> added = run.trajectory();
+  trajectory.insert(trajectory.end(), added.begin(), added.end());
   MapFiles files(options.folder);
   const VoxelMap& voxels = run.builder().map().occupied;
   const std::size_t keyframes = run.builder().poses().size();

@@ -29,7 +29,7 @@ struct MapOptions {
 // Places all scans by themselves.
 void localise_all(ScanInput& input, MapRun& run, Progress& progress) {
   while (auto scan = input.next()) {
-    run.localise(std::move(*scan));
+    run.localise(*scan);
     progress.show(input.progress());
   }
   run.finish();
@@ -113,13 +113,12 @@ int map(const MapOptions& options, Console& console) {
   if (!options.force) refuse_robots_map(options.folder);
   MapFiles files(options.folder);
   const FileLock lock = mapping::lock_folder(options.folder);
-  mapping::KeyframeSpool keyframes(options.folder);
-  MapRun run(settings.localiser, mapping::MapBuilder(settings.mapper),
-             [&](const mapping::Keyframe& keyframe) { keyframes.add(keyframe); });
+  mapping::KeyframeSpool spool(options.folder);
+  MapRun run(settings.localiser, settings.mapper, spool);
   const RunFigures figures = make_map(options, input, run, console);
   const VoxelMap& voxels = run.builder().map().occupied;
   files.write_views(voxels, run.trajectory());
-  files.write_keyframes(keyframes, voxels);
+  files.write_keyframes(spool, run.keyframes(), voxels);
   tell(options, run, figures, console);
   if (figures.interrupted) console.warn("interrupted: the map ends there");
   files.write_octomap(settings.octomap, !options.making.no_octomap, console);

@@ -61,8 +61,10 @@ MapFiles::MapFiles(fs::path folder)
   io::remove_stale_temporaries(folder_);
 }
 
-void MapFiles::write_keyframes(const mapping::KeyframeSpool& keyframes, const VoxelMap& map) const {
-  keyframes.write(folder_ / mapping::kKeyframeFile, map_id(map));
+void MapFiles::write_keyframes(mapping::KeyframeSpool& spool,
+                               const std::vector<mapping::SpooledKeyframe>& keyframes,
+                               const VoxelMap& map) const {
+  spool.write(folder_ / mapping::kKeyframeFile, map_id(map), keyframes);
 }
 
 void MapFiles::write_views(const VoxelMap& map, const std::vector<StampedPose3>& trajectory) const {

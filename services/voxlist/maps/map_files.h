@@ -20,7 +20,9 @@ class MapFiles {
   explicit MapFiles(std::filesystem::path folder);
 
   /// Writes the keyframes of a map. Throws FileError.
-  void write_keyframes(const mapping::KeyframeSpool& keyframes, const VoxelMap& map) const;
+  void write_keyframes(mapping::KeyframeSpool& spool,
+                       const std::vector<mapping::SpooledKeyframe>& keyframes,
+                       const VoxelMap& map) const;
 
   /// Writes trajectory, voxels and picture. Throws FileError.
   void write_views(const VoxelMap& map, const std::vector<StampedPose3>& trajectory) const;

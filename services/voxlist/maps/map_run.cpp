@@ -1,71 +1,294 @@
 #include "services/voxlist/maps/map_run.h"
 
+#include <algorithm>
+#include <set>
 #include <utility>
 
-namespace voxlist::desk {
+#include "services/voxlist/output/stop.h"
+#include "voxlist/geometry/elementary.h"
+#include "voxlist/matching/localisation/reach_match.h"
 
-void MapRun::localise(Scan scan) {
+namespace voxlist::desk {
+namespace {
+
+using matching::Localisation;
+using matching::LocalisationState;
+
+// Before a scan is looked at, it was taken where another piece is with this probability. Nothing is
+// known of that: with it, none of 880 scans of places that have nothing in common came near to
+// joining (the likeliest had 0.75, and 0.995 is sure).
+constexpr double kReturns = 0.5;
+// A piece goes on where the one before it ended, as a robot that is followed does (pose_track.cpp).
+constexpr double kGoesOn = 0.995;
+// Where the two searches of look_back() agree, this probability is enough. On real stations, 57 of
+// the 57 next scans that were in sight had more, and 3 of 230 of other places, which are rare here.
+constexpr double kSureBack = 0.99;
+// How often it is looked from a new piece back at the one before: as it grows, more of that is in
+// sight, and more that looks like it.
+constexpr int kLookBacks = 3;
+// Two searches found the same place if they differ by no more than this (m, rad).
+constexpr double kSame_m = 0.3, kSame_rad = 0.03;
+// Most searches at the end for what has no place yet, each 0.1 to 1 s.
+constexpr std::size_t kLastSearches = 200;
+
+Pose2 pose_of(const Localisation& found) { return found.modes.front().T_map_base; }
+
+double log_odds(double probability) {
+  constexpr double kNearlyOne = 1.0 - 1e-9;
+  return elementary::log(probability) - elementary::log(1.0 - std::min(probability, kNearlyOne));
+}
+
+// Whether a search looked at everything, and what it found is held in every direction.
+bool tells_a_place(const Localisation& found) {
+  return !found.modes.empty() && found.unseen < 1.0 &&
+         worst_sigma_m(found.modes.front().covariance) < kSame_m;
+}
+
+bool same(const Pose2& a, const Pose2& b) {
+  return distance_m(a, b) < kSame_m && turn_rad(a, b) < kSame_rad;
+}
+
+}  // namespace
+
+MapRun::MapRun(const matching::LocaliserConfig& localiser, const mapping::MapBuilderConfig& mapper,
+               mapping::KeyframeSpool& spool)
+    : localiser_(localiser), mapper_(mapper), spool_(spool), goes_on_(false), now_(&new_piece()) {}
+
+MapRun::MapRun(const matching::LocaliserConfig& localiser, const mapping::MapBuilderConfig& mapper,
+               mapping::KeyframeSpool& spool, mapping::MapBuilder map, Piece::Keep keep)
+    : localiser_(localiser), mapper_(mapper), spool_(spool), goes_on_(true) {
+  pieces_.push_back(std::make_unique<Piece>(localiser_, std::move(map), spool_, std::move(keep)));
+  now_ = pieces_.front().get();
+}
+
+void MapRun::localise(const Scan& scan) {
   note(scan);
-  matching::Localisation result = localiser_.localise(scan.cloud, scan.T_odom_base);
-  if (!result.tracking() && unconfirmed_) {
-    begin_anew();
-    result = localiser_.localise(scan.cloud, scan.T_odom_base);
-  }
-  if (!result.tracking()) return note_lost(scan, result.state);
-  if (unconfirmed_) finish();
-  const Pose2& pose = result.modes.front().T_map_base;
-  trajectory_.push_back({scan.cloud.utime_us, to_pose3(pose)});
-  if (!builder_->wants(scan.cloud, pose)) return;
-  add({to_pose3(pose), std::move(scan.cloud)});
-  localiser_.map_grew(builder_->changed_blocks());
+  if (go_back(scan)) return;
+  const Localisation found = now_->localiser().localise(scan.cloud, scan.T_odom_base);
+  if (found.tracking()) return take(scan, found);
+  note_lost(scan, found.state);
+  begin_piece(scan, found);
 }
 
 void MapRun::place(Scan scan, const Pose3& T_map_base) {
-  trajectory_.push_back({scan.cloud.utime_us, T_map_base});
-  keep_(builder_->add({T_map_base, std::move(scan.cloud)}));
+  ++scans_;
+  now_->add(std::move(scan.cloud), T_map_base);
 }
 
 void MapRun::finish() {
-  if (unconfirmed_) keep_(*unconfirmed_);
-  unconfirmed_.reset();
+  left_ = nullptr;
+  now_ = &map();
+  for (std::size_t i = pieces_.size(); i-- > 0;)
+    if (pieces_[i].get() != now_ && !is_confirmed(*pieces_[i])) loosen(*pieces_[i]);
+  searches_ = 0;
+  while (join_one()) {
+  }
+  place_loose();
+}
+
+std::vector<StampedPose3> MapRun::trajectory() const {
+  std::vector<StampedPose3> poses = map().trajectory();
+  std::stable_sort(poses.begin(), poses.end(),
+                   [](const auto& a, const auto& b) { return a.utime_us < b.utime_us; });
+  return poses;
 }
 
 RunFigures MapRun::figures() const {
   RunFigures figures;
-  figures.placed = std::ssize(trajectory_);
-  figures.lost = lost_;
-  figures.ambiguous = ambiguous_;
+  figures.placed = std::ssize(map().trajectory());
+  for (const auto& piece : pieces_) {
+    if (piece.get() == &map()) continue;
+    ++figures.pieces;
+    figures.in_pieces += std::ssize(piece->trajectory());
+  }
+  figures.ambiguous = count_ambiguous();
+  figures.lost = scans_ - figures.placed - figures.in_pieces - figures.ambiguous;
   figures.first_lost = first_lost_;
   figures.odometry = odometry_;
   return figures;
 }
 
+// Of those that have no place in any piece.
+std::int64_t MapRun::count_ambiguous() const {
+  std::set<std::int64_t> placed_us;
+  for (const auto& piece : pieces_)
+    for (const StampedPose3& pose : piece->trajectory()) placed_us.insert(pose.utime_us);
+  return std::count_if(ambiguous_us_.begin(), ambiguous_us_.end(),
+                       [&](std::int64_t utime_us) { return !placed_us.contains(utime_us); });
+}
+
+const Piece& MapRun::map() const {
+  if (goes_on_) return *pieces_.front();
+  return **std::max_element(pieces_.begin(), pieces_.end(), [](const auto& a, const auto& b) {
+    return a->trajectory().size() < b->trajectory().size();
+  });
+}
+
+// A piece of one scan may be of a bad one.
+bool MapRun::is_confirmed(const Piece& piece) const {
+  return piece.trajectory().size() > 1 || (goes_on_ && &piece == pieces_.front().get());
+}
+
+Piece& MapRun::new_piece() {
+  pieces_.push_back(std::make_unique<Piece>(localiser_, mapping::MapBuilder(mapper_), spool_));
+  return *pieces_.back();
+}
+
+void MapRun::erase(const Piece& piece) {
+  if (left_ == &piece) left_ = nullptr;
+  if (behind_ && behind_->piece == &piece) behind_.reset();
+  if (hint_ && hint_->piece == &piece) hint_.reset();
+  std::erase_if(pieces_, [&](const auto& other) { return other.get() == &piece; });
+}
+
 void MapRun::note(const Scan& scan) {
+  ++scans_;
   if (!first_us_) first_us_ = scan.cloud.utime_us;
   odometry_ = odometry_ || scan.T_odom_base;
 }
 
-void MapRun::note_lost(const Scan& scan, matching::LocalisationState state) {
-  ++(state == matching::LocalisationState::kAmbiguous ? ambiguous_ : lost_);
+void MapRun::note_lost(const Scan& scan, LocalisationState state) {
+  if (state == LocalisationState::kAmbiguous) ambiguous_us_.push_back(scan.cloud.utime_us);
   const double seconds = static_cast<double>(scan.cloud.utime_us - *first_us_) * 1e-6;
   if (!first_lost_) first_lost_ = LostScan{scan.number, seconds};
 }
 
-void MapRun::add(mapping::Keyframe keyframe) {
-  const bool first = builder_->poses().empty();
-  keyframe = builder_->add(std::move(keyframe));
-  if (first)
-    unconfirmed_ = std::move(keyframe);
-  else
-    keep_(keyframe);
+// Where the scan fits the piece before, the newest one's only scan was bad.
+bool MapRun::go_back(const Scan& scan) {
+  if (!left_) return false;
+  const Localisation found = left_->localiser().localise(scan.cloud, scan.T_odom_base);
+  if (!found.tracking()) return false;
+  loosen(*std::exchange(now_, std::exchange(left_, nullptr)));
+  hint_.reset();
+  take(scan, found);
+  return true;
 }
 
-void MapRun::begin_anew() {
-  unconfirmed_.reset();
-  lost_ += std::ssize(trajectory_);
-  trajectory_.clear();
-  builder_.emplace(*empty_);
-  localiser_.forget();
+// The scan is the origin of a new piece, unless it is blind. `elsewhere`: what the piece so far
+// says of it.
+void MapRun::begin_piece(const Scan& scan, const Localisation& elsewhere) {
+  Piece& piece = new_piece();
+  const Localisation found = piece.localiser().localise(scan.cloud, scan.T_odom_base);
+  if (!found.tracking()) return erase(piece);
+  Piece* const last = std::exchange(now_, &piece);
+  now_->take(scan.cloud, pose_of(found));
+  behind_.reset();
+  hint_.reset();
+  if (is_confirmed(*last) && !elsewhere.modes.empty()) behind_ = {last, pose_of(elsewhere)};
+  if (is_confirmed(*last) || !left_) {
+    left_ = last;
+  } else if (is_confirmed(*left_)) {
+    loosen(*last);
+  } else {
+    loosen(*std::exchange(left_, last));
+  }
+  look_back();
+}
+
+void MapRun::take(const Scan& scan, const Localisation& found) {
+  const bool is_second = !is_confirmed(*now_);
+  const bool is_keyframe = now_->take(scan.cloud, pose_of(found));
+  if (is_second && left_ && !is_confirmed(*left_)) loosen(*left_);
+  if (is_second) left_ = nullptr;
+  if (!is_keyframe) return;
+  look_back();
+  search_elsewhere(scan);
+}
+
+// Its only scan belongs to no piece any more.
+void MapRun::loosen(Piece& piece) {
+  loose_.insert(loose_.end(), piece.keyframes().begin(), piece.keyframes().end());
+  erase(piece);
+}
+
+// Whether the newest scan, which is a keyframe now, fits one of the others, which take turns: one
+// search for each keyframe.
+void MapRun::search_elsewhere(const Scan& scan) {
+  std::vector<Piece*> others;
+  for (const auto& piece : pieces_)
+    if (piece.get() != now_ && is_confirmed(*piece)) others.push_back(piece.get());
+  if (others.empty()) return;
+  Piece& other = *others[searches_++ % others.size()];
+  const Localisation found = other.localiser().recognise(scan.cloud, kReturns);
+  if (!tells_a_place(found)) return;
+  const Pose2 T_now_base = to_pose2(now_->trajectory().back().pose);
+  const Pose2 T_other_now = pose_of(found) * T_now_base.inverse();
+  if (is_sure(other, T_other_now * T_now_base, T_now_base, found.confidence))
+    join(other, *now_, T_other_now);
+}
+
+// Whether a scan that was found in another piece says surely where that is, by itself or with an
+// earlier one that said the same. Neighbours err together, so the less sure of two counts half.
+bool MapRun::is_sure(Piece& other, const Pose2& T_other_base, const Pose2& T_now_base,
+                     double confidence) {
+  const double odds = log_odds(confidence);
+  const bool agrees =
+      hint_ && hint_->piece == &other && same(hint_->T_other_now * T_now_base, T_other_base);
+  const double before = agrees ? std::max(0.0, hint_->log_odds) : 0.0;
+  if (std::max(odds, before) + 0.5 * std::min(odds, before) >= log_odds(matching::kSureInReach))
+    return true;
+  if (!hint_ || odds > hint_->log_odds) hint_ = {&other, T_other_base * T_now_base.inverse(), odds};
+  return false;
+}
+
+// A drive goes on where it was, so backwards, the last scan of the piece before may fit the newest
+// one, which may have grown since, as the next scan of any drive does; and it must be there where
+// that piece said that the newest one's first scan may be. Of the two, the latter is more exact:
+// it is by all scans of that piece.
+void MapRun::look_back() {
+  if (!behind_ || behind_->piece->keyframes().empty() || ++behind_->looks > kLookBacks)
+    return behind_.reset();
+  const mapping::SpooledKeyframe& last = behind_->piece->keyframes().back();
+  const Localisation back = now_->localiser().recognise(spool_.read(last).cloud, kGoesOn);
+  if (back.confidence < kSureBack || !tells_a_place(back)) return;
+  const Pose2 T_behind_now = to_pose2(last.T_map_base) * pose_of(back).inverse();
+  const Pose2 T_by_all = behind_->T_behind_now;
+  if (same(T_behind_now, T_by_all)) join(*behind_->piece, *now_, T_by_all);
+}
+
+// The smaller piece goes into the larger one.
+void MapRun::join(Piece& piece, Piece& other, const Pose2& T_piece_other) {
+  const bool fixed = goes_on_ && &piece == pieces_.front().get();
+  if (!fixed && piece.trajectory().size() < other.trajectory().size())
+    return join(other, piece, T_piece_other.inverse());
+  piece.join(other, T_piece_other);
+  if (&other == now_) {
+    piece.localiser().take_over(other.localiser(), T_piece_other);
+    now_ = &piece;
+  }
+  erase(other);
+  if (left_ == now_) left_ = nullptr;
+  behind_.reset();
+  hint_.reset();
+}
+
+// Searches the map for the scans of the other pieces, until one of them joins it.
+bool MapRun::join_one() {
+  for (const auto& piece : pieces_) {
+    if (piece.get() == &map()) continue;
+    const std::vector<mapping::SpooledKeyframe> keyframes = piece->keyframes();
+    for (const mapping::SpooledKeyframe& keyframe : keyframes)
+      if (joins_map(*piece, keyframe)) return true;
+  }
+  return false;
+}
+
+bool MapRun::joins_map(Piece& piece, const mapping::SpooledKeyframe& keyframe) {
+  if (stop_requested() || ++searches_ > kLastSearches) return false;
+  const Localisation found = map().localiser().recognise(spool_.read(keyframe).cloud, kReturns);
+  if (!found.tracking()) return false;
+  join(map(), piece, pose_of(found) * to_pose2(keyframe.T_map_base).inverse());
+  return true;
+}
+
+void MapRun::place_loose() {
+  std::erase_if(loose_, [&](const mapping::SpooledKeyframe& keyframe) {
+    if (stop_requested() || ++searches_ > kLastSearches) return false;
+    const Cloud cloud = spool_.read(keyframe).cloud;
+    const Localisation found = map().localiser().recognise(cloud, kReturns);
+    if (found.tracking()) map().take(cloud, pose_of(found));
+    return found.tracking();
+  });
 }
 
 }  // namespace voxlist::desk

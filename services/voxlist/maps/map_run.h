@@ -1,65 +1,113 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
+#include <memory>
 #include <optional>
-#include <utility>
 #include <vector>
 
+#include "services/voxlist/maps/piece.h"
 #include "services/voxlist/maps/summary.h"
 #include "services/voxlist/recording/scan_input.h"
+#include "voxlist/mapping/keyframe_spool.h"
 #include "voxlist/mapping/map_builder.h"
 #include "voxlist/matching/localisation/localiser.h"
 
 namespace voxlist::desk {
 
 /// Localiser and mapper in one: places scans one after the other and grows the map from them.
-/// Equal scans give an equal map.
+/// Where a scan fits nowhere, mapping goes on with that scan as the origin of a new piece beside
+/// the old one. A scan that surely fits two pieces makes them one: the smaller goes into the
+/// larger. At the end the largest piece is the map; the others carry no pose in it. Equal scans
+/// give an equal map.
 class MapRun {
  public:
-  /// Is given each keyframe that went into the map.
-  using Keep = std::function<void(const mapping::Keyframe&)>;
+  /// Begins a map. The spool must outlive this.
+  MapRun(const matching::LocaliserConfig& localiser, const mapping::MapBuilderConfig& mapper,
+         mapping::KeyframeSpool& spool);
 
-  /// Goes on with a map that is there, or an empty one.
-  MapRun(const matching::LocaliserConfig& localiser, mapping::MapBuilder map, Keep keep)
-      : empty_(map.poses().empty() ? std::optional(map) : std::nullopt),
-        builder_(std::move(map)),
-        keep_(std::move(keep)),
-        localiser_(builder_->map(), localiser) {}
+  /// Goes on with a map that is there: it is the map whatever comes beside it, and `keep` is given
+  /// each keyframe that goes into it.
+  MapRun(const matching::LocaliserConfig& localiser, const mapping::MapBuilderConfig& mapper,
+         mapping::KeyframeSpool& spool, mapping::MapBuilder map, Piece::Keep keep);
 
   /// Finds the scan's pose, and adds the scan to the map if it is sure and the scan tells
-  /// something new. As long as a map is one scan that no other fits, the next scan begins it anew:
-  /// one of the two is bad, and it may be the first.
-  void localise(Scan scan);
+  /// something new.
+  void localise(const Scan& scan);
 
   /// Adds the scan to the map at a pose that is known.
   void place(Scan scan, const Pose3& T_map_base);
 
-  /// No scan comes any more.
+  /// No scan comes any more: what has no place yet is searched for in the map as it has grown.
   void finish();
 
-  const mapping::MapBuilder& builder() const { return *builder_; }
+  const mapping::MapBuilder& builder() const { return map().builder(); }
 
-  /// T_map_base of every scan that was placed.
-  const std::vector<StampedPose3>& trajectory() const { return trajectory_; }
+  /// T_map_base of every scan that was placed, in the order of time.
+  std::vector<StampedPose3> trajectory() const;
 
-  /// What became of the scans so far, and of no more than that.
+  /// The map's keyframes in the spool; none of a map that was there.
+  const std::vector<mapping::SpooledKeyframe>& keyframes() const { return map().keyframes(); }
+
+  /// What became of the scans, and no more than that.
   RunFigures figures() const;
 
  private:
-  void add(mapping::Keyframe keyframe);
-  void begin_anew();
+  // The piece that a new one was begun beside, whose last scan may yet fit that one: where it said
+  // that the newest piece's origin may be, and how often that was tried.
+  struct Behind {
+    Piece* piece;
+    Pose2 T_behind_now;
+    int looks = 0;
+  };
+
+  // Where another piece may be: what a scan said that was not sure by itself.
+  struct Hint {
+    const Piece* piece;
+    Pose2 T_other_now;
+    double log_odds;
+  };
+
+  const Piece& map() const;
+  Piece& map() { return const_cast<Piece&>(std::as_const(*this).map()); }
+  bool is_confirmed(const Piece& piece) const;
+  Piece& new_piece();
+  void erase(const Piece& piece);
+
   void note(const Scan& scan);
   void note_lost(const Scan& scan, matching::LocalisationState state);
+  std::int64_t count_ambiguous() const;
 
-  const std::optional<mapping::MapBuilder> empty_;
-  std::optional<mapping::MapBuilder> builder_;
-  // The map's first keyframe, until a second scan fits it.
-  std::optional<mapping::Keyframe> unconfirmed_;
-  const Keep keep_;
-  matching::Localiser localiser_;
-  std::vector<StampedPose3> trajectory_;
-  std::int64_t lost_ = 0, ambiguous_ = 0;
+  bool go_back(const Scan& scan);
+  void begin_piece(const Scan& scan, const matching::Localisation& elsewhere);
+  void take(const Scan& scan, const matching::Localisation& found);
+  void loosen(Piece& piece);
+
+  void search_elsewhere(const Scan& scan);
+  bool is_sure(Piece& other, const Pose2& T_other_base, const Pose2& T_now_base, double confidence);
+  void look_back();
+  void join(Piece& piece, Piece& other, const Pose2& T_piece_other);
+
+  bool join_one();
+  bool joins_map(Piece& piece, const mapping::SpooledKeyframe& keyframe);
+  void place_loose();
+
+  const matching::LocaliserConfig localiser_;
+  const mapping::MapBuilderConfig mapper_;
+  mapping::KeyframeSpool& spool_;
+  const bool goes_on_;
+  std::vector<std::unique_ptr<Piece>> pieces_;
+  // The piece that mapping goes on in.
+  Piece* now_ = nullptr;
+  // The one before it, as long as the newest has but one scan, which may be the bad one.
+  Piece* left_ = nullptr;
+  std::optional<Behind> behind_;
+  std::optional<Hint> hint_;
+  std::size_t searches_ = 0;
+  // Scans that belong to no piece: only scans of pieces that no other fitted.
+  std::vector<mapping::SpooledKeyframe> loose_;
+  std::int64_t scans_ = 0;
+  // Times of scans that were AMBIGUOUS when they came.
+  std::vector<std::int64_t> ambiguous_us_;
   std::optional<std::int64_t> first_us_;
   std::optional<LostScan> first_lost_;
   bool odometry_ = false;

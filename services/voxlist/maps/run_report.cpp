@@ -44,6 +44,9 @@ std::string shortfall(const RunFigures& figures) {
   if (missing <= 0) return {};
   std::string text =
       fmt::format("{} of {} scans have no place in the map", missing, asked(figures));
+  if (figures.pieces > 0)
+    text += fmt::format(", {} of them in {} that nothing joins to it", figures.in_pieces,
+                        figures.pieces == 1 ? "a piece" : fmt::format("{} pieces", figures.pieces));
   if (figures.first_lost)
     text += fmt::format("; scan {} at {:.1f} s was the first that fitted nowhere",
                         figures.first_lost->number, figures.first_lost->seconds);

@@ -12,8 +12,8 @@ namespace voxlist::desk {
 namespace {
 
 // Keys that count what each run did.
-constexpr auto kCounts = {"scans",        "placed",   "lost",    "ambiguous",
-                          "without_pose", "left_out", "seconds", "elapsed_seconds"};
+constexpr auto kCounts = {"scans",     "placed",       "lost",     "ambiguous", "pieces",
+                          "in_pieces", "without_pose", "left_out", "seconds",   "elapsed_seconds"};
 
 void set_factor(Summary& summary) {
   const double elapsed_s = summary["elapsed_seconds"].get<double>();
@@ -40,6 +40,8 @@ Summary summary_of(const RunFigures& figures) {
       {"placed", figures.placed},
       {"lost", figures.lost},
       {"ambiguous", figures.ambiguous},
+      {"pieces", figures.pieces},
+      {"in_pieces", figures.in_pieces},
       {"without_pose", figures.without_pose},
       {"left_out", figures.left_out},
       {"offset_m", {offset_m.x(), offset_m.y(), offset_m.z()}},

@@ -24,10 +24,12 @@ struct RunFigures {
   std::int64_t placed = 0;
   std::int64_t lost = 0;
   std::int64_t ambiguous = 0;
-  std::int64_t without_pose = 0;                       ///< not in the table of --use-poses
-  std::int64_t left_out = 0;                           ///< could not be read
-  std::optional<LostScan> first_lost;                  ///< the first that was not placed at once
-  bool odometry = false;                               ///< whether there was any
+  std::int64_t pieces = 0;             ///< parts of the drive that nothing joins to the map...
+  std::int64_t in_pieces = 0;          ///< ...and their scans, which have no place in it
+  std::int64_t without_pose = 0;       ///< not in the table of --use-poses
+  std::int64_t left_out = 0;           ///< could not be read
+  std::optional<LostScan> first_lost;  ///< the first that was not placed at once
+  bool odometry = false;               ///< whether there was any
   Eigen::Vector3d offset_m = Eigen::Vector3d::Zero();  ///< taken off the poses of --use-poses
   double seconds = 0.0;                                ///< of data
   double elapsed_seconds = 0.0;                        ///< of work, without writing files

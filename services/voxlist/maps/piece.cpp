@@ -1,0 +1,45 @@
+#include "services/voxlist/maps/piece.h"
+
+#include <utility>
+
+namespace voxlist::desk {
+
+Piece::Piece(const matching::LocaliserConfig& localiser, mapping::MapBuilder map,
+             mapping::KeyframeSpool& spool, Keep keep)
+    : builder_(std::move(map)),
+      spool_(spool),
+      keep_(std::move(keep)),
+      localiser_(builder_.map(), localiser) {}
+
+bool Piece::take(const Cloud& cloud, const Pose2& T_piece_base) {
+  trajectory_.push_back({cloud.utime_us, to_pose3(T_piece_base)});
+  if (!builder_.wants(cloud, T_piece_base)) return false;
+  add({to_pose3(T_piece_base), cloud}, nullptr);
+  return true;
+}
+
+void Piece::add(Cloud cloud, const Pose3& T_piece_base) {
+  trajectory_.push_back({cloud.utime_us, T_piece_base});
+  add({T_piece_base, std::move(cloud)}, nullptr);
+}
+
+void Piece::join(const Piece& other, const Pose2& T_this_other) {
+  const Pose3 to_here = to_pose3(T_this_other);
+  for (mapping::SpooledKeyframe keyframe : other.keyframes_) {
+    keyframe.T_map_base = to_here * keyframe.T_map_base;
+    add(spool_.read(keyframe), &keyframe);
+  }
+  for (const StampedPose3& pose : other.trajectory_)
+    trajectory_.push_back({pose.utime_us, to_here * pose.pose});
+}
+
+// `spooled`: where it is in the spool, if it is there.
+void Piece::add(mapping::Keyframe keyframe, const mapping::SpooledKeyframe* spooled) {
+  keyframe = builder_.add(std::move(keyframe));
+  localiser_.map_grew(builder_.changed_blocks());
+  if (keep_) return keep_(keyframe);
+  keyframes_.push_back(
+      spooled ? *spooled : mapping::SpooledKeyframe{spool_.add(keyframe), keyframe.T_map_base});
+}
+
+}  // namespace voxlist::desk

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "services/voxlist/recording/scan_input.h"
+#include "voxlist/mapping/keyframe_spool.h"
+#include "voxlist/mapping/map_builder.h"
+#include "voxlist/matching/localisation/localiser.h"
+
+namespace voxlist::desk {
+
+/// A part of a drive that hangs together: a map with its localiser, in a frame of its own, that of
+/// its first scan or of a map that was there before. Its keyframes wait in a spool.
+class Piece {
+ public:
+  /// Is given each keyframe that goes into the map, for whoever keeps them elsewhere.
+  using Keep = std::function<void(const mapping::Keyframe&)>;
+
+  /// The spool must outlive it. A piece with `keep` leaves nothing in the spool.
+  Piece(const matching::LocaliserConfig& localiser, mapping::MapBuilder map,
+        mapping::KeyframeSpool& spool, Keep keep = {});
+  Piece(const Piece&) = delete;
+  Piece& operator=(const Piece&) = delete;
+
+  matching::Localiser& localiser() { return localiser_; }
+  const mapping::MapBuilder& builder() const { return builder_; }
+
+  /// T_piece_base of every scan that was placed.
+  const std::vector<StampedPose3>& trajectory() const { return trajectory_; }
+
+  /// The keyframes in the spool, in the order in which they went into the map.
+  const std::vector<mapping::SpooledKeyframe>& keyframes() const { return keyframes_; }
+
+  /// Takes a scan at its pose, and adds it to the map if it tells something new. Returns whether it
+  /// did.
+  bool take(const Cloud& cloud, const Pose2& T_piece_base);
+
+  /// Adds a scan to the map at its pose.
+  void add(Cloud cloud, const Pose3& T_piece_base);
+
+  /// Takes all that another piece has; `T_this_other` is from that piece to this one.
+  void join(const Piece& other, const Pose2& T_this_other);
+
+ private:
+  void add(mapping::Keyframe keyframe, const mapping::SpooledKeyframe* spooled);
+
+  mapping::MapBuilder builder_;
+  mapping::KeyframeSpool& spool_;
+  const Keep keep_;
+  matching::Localiser localiser_;
+  std::vector<StampedPose3> trajectory_;
+  std::vector<mapping::SpooledKeyframe> keyframes_;
+};
+
+}  // namespace voxlist::desk

@@ -1,0 +1,218 @@
+// Drives that begin badly, have gaps, or come back: which pieces they are mapped in, and what the
+// map is in the end.
+#include "services/voxlist/maps/map_run.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "tests/temporary_folder.h"
+#include "voxlist/simulation/random.h"
+#include "voxlist/simulation/world/world.h"
+
+namespace voxlist::desk {
+namespace {
+
+using simulation::Building;
+
+constexpr double kLaser_m = 1.0, kRange_m = 12.0, kNoise_m = 0.01;
+constexpr std::int64_t kStep_us = 1'000'000;
+
+// What a laser with 48 rings sees from a pose, in base.
+Cloud scan_of(const simulation::World& world, const Pose2& pose, std::uint64_t seed) {
+  simulation::Random random(seed);
+  Cloud cloud;
+  const Eigen::Vector3d laser(pose.x_m, pose.y_m, kLaser_m);
+  for (int i = 0; i < 48 * 180; ++i) {
+    const double up = (-35.0 + 70.0 * (i / 180) / 47.0) * std::numbers::pi / 180.0,
+                 turn = 2.0 * (i % 180) * std::numbers::pi / 180.0;
+    const Eigen::Vector3d way(std::cos(up) * std::cos(turn), std::cos(up) * std::sin(turn),
+                              std::sin(up));
+    const auto range_m = world.range(laser, to_pose3(pose).linear() * way, 0.0);
+    if (!range_m || *range_m > kRange_m) continue;
+    const Eigen::Vector3d end = (*range_m + kNoise_m * random.normal()) * way;
+    cloud.points.push_back((Eigen::Vector3d(0.0, 0.0, kLaser_m) + end).cast<float>());
+    cloud.origins.emplace_back(0.0F, 0.0F, static_cast<float>(kLaser_m));
+  }
+  return cloud;
+}
+
+class MapRunTest : public testing::Test {
+ protected:
+  static Building building(int seed) {
+    simulation::BuildingConfig config;
+    config.seed = seed;
+    return simulation::make_building(config);
+  }
+
+  // The middle of a room, and so far towards its door.
+  Pose2 in_room(std::size_t room, double share = 0.0) const {
+    const simulation::Room& r = world_.building().rooms[room];
+    const Eigen::Vector2d at = (1.0 - share) * r.centre() + share * r.door;
+    return {at.x(), at.y(), 0.3};
+  }
+
+  // Straight from one pose to another, half a metre a scan.
+  void drive(MapRun& run, const Pose2& from, const Pose2& to) {
+    const int steps = static_cast<int>(std::ceil(distance_m(from, to) / 0.5));
+    for (int i = 1; i <= steps; ++i)
+      see(run, from * part_of(from.inverse() * to, static_cast<double>(i) / steps));
+  }
+
+  // From the middle of one room to the middle of another.
+  void drive(MapRun& run, std::size_t from, std::size_t to) {
+    const auto at = [&](std::size_t room) { return in_room(room, 1.0); };
+    const auto before = [&](std::size_t room) { return Pose2{at(room).x_m, 0.0, 0.3}; };
+    const Pose2 way[] = {in_room(from), at(from), before(from), before(to), at(to), in_room(to)};
+    for (std::size_t i = 0; i + 1 < std::size(way); ++i) drive(run, way[i], way[i + 1]);
+  }
+
+  void see(MapRun& run, const Pose2& pose) { see(run, world_, pose); }
+
+  void see(MapRun& run, const simulation::World& world, const Pose2& pose) {
+    show(run, scan_of(world, pose, static_cast<std::uint64_t>(number_) + 1), pose);
+  }
+
+  // Points anywhere.
+  void see_nonsense(MapRun& run) {
+    simulation::Random random(static_cast<std::uint64_t>(number_) + 77);
+    Cloud cloud;
+    for (int i = 0; i < 3000; ++i)
+      cloud.points.push_back(Eigen::Vector3d(random.uniform(-5.0, 5.0), random.uniform(-5.0, 5.0),
+                                             random.uniform(0.0, 2.0))
+                                 .cast<float>());
+    show(run, cloud, {});
+  }
+
+  // Every pose of the run's trajectory is where the scan was taken, in the frame of its first one.
+  void expect_true_poses(const MapRun& run) const {
+    const auto trajectory = run.trajectory();
+    ASSERT_FALSE(trajectory.empty());
+    const auto truth = [&](const StampedPose3& pose) {
+      return truth_[static_cast<std::size_t>(pose.utime_us / kStep_us)];
+    };
+    const Pose2 T_true_map =
+        truth(trajectory.front()) * to_pose2(trajectory.front().pose).inverse();
+    for (const StampedPose3& pose : trajectory) {
+      const Pose2 found = T_true_map * to_pose2(pose.pose);
+      EXPECT_LT(distance_m(found, truth(pose)), 0.1) << pose.utime_us;
+      EXPECT_LT(turn_rad(found, truth(pose)), 0.01) << pose.utime_us;
+    }
+  }
+
+  const simulation::World world_{building(1)};
+  const test::TemporaryFolder folder_;
+  mapping::KeyframeSpool spool_{folder_.path()};
+
+ private:
+  void show(MapRun& run, Cloud cloud, const Pose2& pose) {
+    cloud.utime_us = number_ * kStep_us;
+    truth_.push_back(pose);
+    run.localise({number_++, std::move(cloud), std::nullopt});
+  }
+
+  std::int64_t number_ = 0;
+  std::vector<Pose2> truth_;
+};
+
+TEST_F(MapRunTest, BeginsAtTheNextScanWhereTheFirstWasBad) {
+  MapRun run({}, {}, spool_);
+  see_nonsense(run);
+  for (const double share : {0.0, 0.2, 0.4}) see(run, in_room(0, share));
+  run.finish();
+  EXPECT_EQ(run.figures().placed, 3);
+  EXPECT_EQ(run.figures().lost, 1);
+  EXPECT_EQ(run.figures().pieces, 0);
+  EXPECT_EQ(run.trajectory().front().utime_us, kStep_us);
+  expect_true_poses(run);
+}
+
+TEST_F(MapRunTest, GoesOnInTheOldPieceAfterABadScan) {
+  MapRun run({}, {}, spool_);
+  for (const double share : {0.0, 0.2}) see(run, in_room(0, share));
+  for (int i = 0; i < 2; ++i) see_nonsense(run);
+  for (const double share : {0.4, 0.5}) see(run, in_room(0, share));
+  run.finish();
+  EXPECT_EQ(run.figures().placed, 4);
+  EXPECT_EQ(run.figures().pieces, 0);
+  ASSERT_TRUE(run.figures().first_lost);
+  EXPECT_EQ(run.figures().first_lost->number, 2);
+  EXPECT_EQ(run.figures().first_lost->seconds, 2.0);
+  expect_true_poses(run);
+}
+
+TEST_F(MapRunTest, LeavesAPieceThatNothingJoinsOutOfTheMap) {
+  MapRun run({}, {}, spool_);
+  for (const double share : {0.0, 0.2, 0.4}) see(run, in_room(0, share));
+  const std::uint64_t hash = run.builder().map().occupied.hash();
+  const simulation::World elsewhere(building(9));
+  for (const double x : {2.0, 2.2}) see(run, elsewhere, {x, 0.0, 0.0});
+  run.finish();
+  EXPECT_EQ(run.figures().placed, 3);
+  EXPECT_EQ(run.figures().pieces, 1);
+  EXPECT_EQ(run.figures().in_pieces, 2);
+  EXPECT_EQ(run.figures().lost + run.figures().ambiguous, 0);
+  EXPECT_EQ(run.trajectory().size(), 3u);
+  EXPECT_EQ(run.builder().map().occupied.hash(), hash);
+}
+
+TEST_F(MapRunTest, TakesTheLargestPieceForTheMap) {
+  const simulation::World elsewhere(building(9));
+  MapRun run({}, {}, spool_);
+  for (const double x : {2.0, 2.2}) see(run, elsewhere, {x, 0.0, 0.0});
+  for (const double share : {0.0, 0.2, 0.4}) see(run, in_room(0, share));
+  run.finish();
+  EXPECT_EQ(run.figures().in_pieces, 2);
+  EXPECT_EQ(run.trajectory().front().utime_us, 2 * kStep_us);
+  expect_true_poses(run);
+}
+
+// From one room to another behind closed eyes, and back with open ones.
+TEST_F(MapRunTest, MakesOneOfTwoPiecesWhereAScanFitsBoth) {
+  MapRun run({}, {}, spool_);
+  for (const double share : {0.0, 0.2, 0.4}) see(run, in_room(0, share));
+  for (const double share : {0.2, 0.1}) see(run, in_room(5, share));
+  EXPECT_EQ(run.figures().pieces, 1);
+  EXPECT_EQ(run.figures().in_pieces, 2);
+  drive(run, 5, 0);
+  EXPECT_EQ(run.figures().pieces, 0);
+  run.finish();
+  EXPECT_GT(run.figures().placed, 25);
+  EXPECT_EQ(run.figures().lost + run.figures().ambiguous, 0);
+  EXPECT_EQ(run.keyframes().size(), run.builder().poses().size());
+  expect_true_poses(run);
+}
+
+TEST_F(MapRunTest, PlacesAScanAtTheEndWhereTheMapHasGrown) {
+  MapRun run({}, {}, spool_);
+  see(run, in_room(5));
+  for (const double share : {0.2, 0.1}) see(run, in_room(0, share));
+  drive(run, 0, 5);
+  EXPECT_EQ(run.trajectory().front().utime_us, kStep_us);
+  const std::int64_t placed = run.figures().placed;
+  run.finish();
+  EXPECT_EQ(run.figures().placed, placed + 1);
+  EXPECT_EQ(run.trajectory().front().utime_us, 0);
+  expect_true_poses(run);
+}
+
+TEST_F(MapRunTest, KeepsWhatJoinsAMapThatWasThereAndNothingElse) {
+  mapping::MapBuilder before;
+  for (const double share : {0.0, 0.4})
+    before.add({to_pose3(in_room(0, share)), scan_of(world_, in_room(0, share), 99)});
+  std::vector<mapping::Keyframe> kept;
+  MapRun run({}, {}, spool_, std::move(before),
+             [&](const mapping::Keyframe& keyframe) { kept.push_back(keyframe); });
+  for (const double share : {0.2, 0.1}) see(run, in_room(5, share));
+  EXPECT_TRUE(kept.empty());
+  EXPECT_EQ(run.figures().placed, 0);
+  drive(run, 5, 0);
+  run.finish();
+  EXPECT_GT(run.figures().placed, 25);
+  EXPECT_EQ(kept.size() + 2, run.builder().poses().size());
+  expect_true_poses(run);
+}
+
+}  // namespace
+}  // namespace voxlist::desk
