@@ -1,7 +1,6 @@
 #include "voxlist/matching/motion/match_scatter.h"
 
-#include <Eigen/Geometry>
-
+#include "voxlist/geometry/elementary.h"
 #include "voxlist/matching/motion/pose_fusion.h"
 
 namespace voxlist::matching {
@@ -21,7 +20,8 @@ constexpr double kByChance = 4.0;
 // Turns base's axes to the map's.
 Eigen::Matrix3d turn_of(const Pose2& pose) {
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
-  turn.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(pose.yaw_rad).toRotationMatrix();
+  const auto [sine, cosine] = elementary::sine_cosine(pose.yaw_rad);
+  turn.topLeftCorner<2, 2>() << cosine, -sine, sine, cosine;
   return turn;
 }
 

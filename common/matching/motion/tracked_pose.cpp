@@ -84,8 +84,8 @@ void TrackedPose::learn(const UncertainPose& pose) {
 
 OdometryBias TrackedPose::odometry() const {
   const Eigen::Vector2d factor(1.0 + bias_(0), bias_(1));
-  return {factor.norm() - 1.0, std::atan2(factor(1), factor(0)), std::sqrt(covariance_(3, 3)),
-          std::sqrt(covariance_(4, 4))};
+  return {factor.norm() - 1.0, elementary::atan2(factor(1), factor(0)),
+          std::sqrt(covariance_(3, 3)), std::sqrt(covariance_(4, 4))};
 }
 
 }  // namespace voxlist::matching

@@ -79,6 +79,7 @@ void tell(const MapOptions& options, const MapRun& run, const RunFigures& figure
                   run.builder().map().occupied.size(), hash_text(run.builder().map().occupied)));
   console.say(fmt::format("{:.1f} s of data in {:.1f} s, {:.1f} times real time", figures.seconds,
                           figures.elapsed_seconds, factor));
+  if (const std::string bias = odometry_bias(figures); !bias.empty()) console.say(bias);
   console.say((options.folder / "map.png").string());
 }
 

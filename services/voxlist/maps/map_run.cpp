@@ -77,6 +77,7 @@ void MapRun::localise(const Scan& scan) {
   note(scan);
   if (go_back(scan)) return;
   const Localisation found = now_->localiser().localise(scan.cloud, scan.T_odom_base);
+  if (found.odometry_bias) odometry_bias_ = found.odometry_bias;
   if (found.tracking()) return take(scan, found);
   note_lost(scan, found.state);
   begin_piece(scan, found);
@@ -117,6 +118,7 @@ RunFigures MapRun::figures() const {
   figures.lost = scans_ - figures.placed - figures.in_pieces - figures.ambiguous;
   figures.first_lost = first_lost_;
   figures.odometry = odometry_;
+  figures.odometry_bias = odometry_bias_;
   return figures;
 }
 

@@ -111,6 +111,7 @@ class MapRun {
   std::optional<std::int64_t> first_us_;
   std::optional<LostScan> first_lost_;
   bool odometry_ = false;
+  std::optional<matching::OdometryBias> odometry_bias_;
 };
 
 }  // namespace voxlist::desk

@@ -3,6 +3,8 @@
 #include <fmt/core.h>
 
 #include <chrono>
+#include <cmath>
+#include <numbers>
 
 #include "services/voxlist/output/stop.h"
 
@@ -17,6 +19,11 @@ const char* remedy(const RunFigures& figures) {
                           : "odometry would help, or scans that are closer together and share more "
                             "walls";
 }
+
+// Told from this standard deviation of the scale on.
+constexpr double kKnown = 0.02;
+
+constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 }  // namespace
 
@@ -51,6 +58,16 @@ std::string shortfall(const RunFigures& figures) {
     text += fmt::format("; scan {} at {:.1f} s was the first that fitted nowhere",
                         figures.first_lost->number, figures.first_lost->seconds);
   return text + ": " + remedy(figures);
+}
+
+std::string odometry_bias(const RunFigures& figures) {
+  if (!figures.odometry_bias || figures.odometry_bias->scale_sigma > kKnown) return {};
+  const matching::OdometryBias& bias = *figures.odometry_bias;
+  const double off = 1.0 / (1.0 + bias.scale) - 1.0;
+  return fmt::format(
+      "odometry's ways are {:.1f} +- {:.1f} % too {}, and turned by {:.1f} +- {:.1f} deg",
+      100.0 * std::abs(off), 100.0 * bias.scale_sigma, off < 0.0 ? "short" : "long",
+      -kDegrees * bias.heading_rad, kDegrees * bias.heading_sigma_rad);
 }
 
 bool mostly_lost(const RunFigures& figures) { return 2 * figures.placed < asked(figures); }

@@ -23,6 +23,9 @@ RunFigures carry_out(ScanInput& input, const MapRun& run, const std::string& doi
 /// all have one.
 std::string shortfall(const RunFigures& figures);
 
+/// One line that says what odometry is off by all the time. Empty where scans have not told yet.
+std::string odometry_bias(const RunFigures& figures);
+
 /// Whether less than half was placed of the scans whose place was asked for.
 bool mostly_lost(const RunFigures& figures);
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "voxlist/matching/motion/tracked_pose.h"
 #include "voxlist/voxels/voxel_map.h"
 
 namespace voxlist::desk {
@@ -30,9 +31,10 @@ struct RunFigures {
   std::int64_t left_out = 0;           ///< could not be read
   std::optional<LostScan> first_lost;  ///< the first that was not placed at once
   bool odometry = false;               ///< whether there was any
-  Eigen::Vector3d offset_m = Eigen::Vector3d::Zero();  ///< taken off the poses of --use-poses
-  double seconds = 0.0;                                ///< of data
-  double elapsed_seconds = 0.0;                        ///< of work, without writing files
+  std::optional<matching::OdometryBias> odometry_bias;  ///< what it is off by, as scans told
+  Eigen::Vector3d offset_m = Eigen::Vector3d::Zero();   ///< taken off the poses of --use-poses
+  double seconds = 0.0;                                 ///< of data
+  double elapsed_seconds = 0.0;                         ///< of work, without writing files
   bool interrupted = false;
 };
 
