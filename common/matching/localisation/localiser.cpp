@@ -130,7 +130,7 @@ Localisation Localiser::recognise(const Cloud& cloud, double here) {
   Localisation result;
   threads_.run([&] {
     const PreparedScan scan(cloud, config_.matcher.scan);
-    const ReachMatch found = match_in_reach(matcher(), scan, anywhere(), here);
+    const ReachMatch found = match_in_reach(matcher(), scan, anywhere(), here, Rivals::kAnywhere);
     result = from_match(scan, found.match);
     for (std::size_t i = 0; i < result.modes.size(); ++i)
       result.modes[i].probability = found.probabilities[i];

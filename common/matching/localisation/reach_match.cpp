@@ -26,13 +26,13 @@ PoseWindow window_of(const UncertainPose& predicted) {
 }  // namespace
 
 ReachMatch match_in_reach(Matcher& matcher, const PreparedScan& scan,
-                          const UncertainPose& predicted, double in_reach) {
+                          const UncertainPose& predicted, double in_reach, Rivals rivals) {
   const PoseWindow window = window_of(predicted);
   const bool vague = std::max(window.half_x_m, window.half_y_m) > kWidest_m;
   ReachMatch result{matcher.track(scan, vague ? std::nullopt : std::optional(window), predicted),
                     {}};
-  result.probabilities =
-      rank_in_reach(predicted, in_reach, result.match.modes, vague ? result.match.unseen : 0.0);
+  result.probabilities = rank_in_reach(predicted, in_reach, result.match.modes,
+                                       Rivals::kAnywhere == rivals ? result.match.unseen : 0.0);
   return result;
 }
 

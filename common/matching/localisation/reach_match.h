@@ -22,10 +22,19 @@ struct ReachMatch {
 /// carried away (bench_confidence, seed 141) passed for being where it was expected, at 0.991.
 inline constexpr double kSureInReach = 0.995;
 
+/// Where else a scan may have been taken.
+enum class Rivals {
+  /// Near the prediction, where the search sees to it that none is overlooked.
+  kInReach,
+  /// Anywhere: then what a search that was ended early did not look at counts.
+  kAnywhere,
+};
+
 /// Where within reach of a prediction a scan was taken: in a window round it, or in the whole map
 /// where the prediction is too vague for one.
 /// `in_reach`: the probability, before the scan is looked at, that it was taken there.
 ReachMatch match_in_reach(Matcher& matcher, const PreparedScan& scan,
-                          const UncertainPose& predicted, double in_reach);
+                          const UncertainPose& predicted, double in_reach,
+                          Rivals rivals = Rivals::kInReach);
 
 }  // namespace voxlist::matching

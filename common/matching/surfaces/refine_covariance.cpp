@@ -135,7 +135,7 @@ Square<kDof> believed(const Square<kDof>& information, const std::vector<Step<kD
 // that tell most: they may be no surfaces, such as one ring of a laser across a corner, and nothing
 // contradicts them. So many of a hundred surfels, and one: in a corridor seen by 49 rings some 15
 // of 344 held its long axis.
-constexpr std::size_t kFewOfHundred = 6;
+constexpr std::size_t kFewOfHundred = 5;
 
 template <int kDof>
 Square<kDof> of_few_surfels(const Square<kDof>& information, std::vector<Square<kDof>> told,

@@ -29,6 +29,8 @@ constexpr double kSureBack = 0.99;
 // How often it is looked from a new piece back at the one before: as it grows, more of that is in
 // sight, and more that looks like it.
 constexpr int kLookBacks = 3;
+// So far (m) a robot may go and still see most of what it saw: across a room or a street.
+constexpr double kNear_m = 10.0;
 // Two searches found the same place if they differ by no more than this (m, rad).
 constexpr double kSame_m = 0.3, kSame_rad = 0.03;
 // Most searches at the end for what has no place yet, each 0.1 to 1 s.
@@ -80,7 +82,7 @@ void MapRun::localise(const Scan& scan) {
   if (found.odometry_bias) odometry_bias_ = found.odometry_bias;
   if (found.tracking()) return take(scan, found);
   note_lost(scan, found.state);
-  begin_piece(scan, found);
+  is_near(scan) ? wait(scan) : begin_piece(scan, found);
 }
 
 void MapRun::place(Scan scan, const Pose3& T_map_base) {
@@ -176,6 +178,23 @@ bool MapRun::go_back(const Scan& scan) {
   hint_.reset();
   take(scan, found);
   return true;
+}
+
+// Whether the robot cannot be far from where it was placed last: then it sees what the map has
+// there, and the next scan, or the one after, fits.
+bool MapRun::is_near(const Scan& scan) const {
+  if (!is_confirmed(*now_) || now_->trajectory().empty()) return false;
+  const auto since_us = scan.cloud.utime_us - now_->trajectory().back().utime_us;
+  return static_cast<double>(since_us) * 1e-6 * localiser_.max_speed_mps < kNear_m;
+}
+
+// The scan belongs to no piece; at the end it is searched for.
+void MapRun::wait(const Scan& scan) {
+  Piece& piece = new_piece();
+  const Localisation found = piece.localiser().localise(scan.cloud, scan.T_odom_base);
+  if (!found.tracking()) return erase(piece);
+  piece.take(scan.cloud, pose_of(found));
+  loosen(piece);
 }
 
 // The scan is the origin of a new piece, unless it is blind. `elsewhere`: what the piece so far

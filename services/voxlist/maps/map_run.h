@@ -78,6 +78,8 @@ class MapRun {
   std::int64_t count_ambiguous() const;
 
   bool go_back(const Scan& scan);
+  bool is_near(const Scan& scan) const;
+  void wait(const Scan& scan);
   void begin_piece(const Scan& scan, const matching::Localisation& elsewhere);
   void take(const Scan& scan, const matching::Localisation& found);
   void loosen(Piece& piece);
