@@ -57,7 +57,7 @@ inline constexpr Channel<uncertain_pose_t> kPoseCovariance{"POSE_COVARIANCE"};
 /// T_map_odom, from odom to map: with the newest ODOMETRY it gives the pose at any time, T_map_base
 /// = T_map_odom * T_odom_base. It jumps where POSE does, and changes slowly otherwise: odometry's
 /// drift. Never of a pose that is not TRACKING. Rate: each tracked cloud with odometry.
-/// From localiser to whoever plans in odom, or wants poses at a rate of its own.
+/// The localiser tells it to planners that work in odom, or want poses at a rate of their own.
 inline constexpr Channel<rigid_transform_t> kMapOdom{"T_MAP_ODOM"};
 
 /// The true pose, where a simulator or a data set knows it. Frame: map. Rate: each cloud.

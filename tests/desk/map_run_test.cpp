@@ -61,7 +61,7 @@ class MapRunTest : public testing::Test {
       see(run, from * part_of(from.inverse() * to, static_cast<double>(i) / steps));
   }
 
-  // From the middle of one room to the middle of another.
+  // The robot drives from the middle of one room to the middle of another.
   void drive(MapRun& run, std::size_t from, std::size_t to) {
     const auto at = [&](std::size_t room) { return in_room(room, 1.0); };
     const auto before = [&](std::size_t room) { return Pose2{at(room).x_m, 0.0, 0.3}; };
@@ -180,7 +180,7 @@ TEST_F(MapRunTest, TakesTheLargestPieceForTheMap) {
   expect_true_poses(run);
 }
 
-// From one room to another behind closed eyes, and back with open ones.
+// The robot goes to another room without a scan on its way, and comes back with scans.
 TEST_F(MapRunTest, MakesOneOfTwoPiecesWhereAScanFitsBoth) {
   MapRun run({}, {}, spool_);
   for (const double share : {0.0, 0.2, 0.4}) see(run, in_room(0, share));

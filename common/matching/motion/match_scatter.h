@@ -22,7 +22,7 @@ class MatchScatter {
   /// what both err by. `matched`: what expected() and the scan gave together.
   void correct(TrackedPose& moved, const UncertainPose& matched);
 
-  /// In base, as variances of x, y, yaw: m^2, m^2, rad^2.
+  /// The scatter of matches in base, as variances of x, y, yaw: m^2, m^2, rad^2.
   Eigen::Vector3d variances() const;
 
  private:

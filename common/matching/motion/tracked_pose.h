@@ -18,7 +18,7 @@ struct OdometryBias {
 /// scans confirm or correct tells of both (a Kalman filter's state).
 class TrackedPose {
  public:
-  /// Of odometry nothing is known yet but what is usual.
+  /// The robot is at this pose; its odometry errs as odometry usually does.
   explicit TrackedPose(const UncertainPose& pose);
 
   /// Moves by what odometry tells (T_before_now).

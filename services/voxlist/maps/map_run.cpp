@@ -124,7 +124,7 @@ RunFigures MapRun::figures() const {
   return figures;
 }
 
-// Of those that have no place in any piece.
+// Counts the AMBIGUOUS scans that have no place in any piece.
 std::int64_t MapRun::count_ambiguous() const {
   std::set<std::int64_t> placed_us;
   for (const auto& piece : pieces_)

@@ -14,7 +14,8 @@ namespace voxlist::bench {
 /// How a claimed pose is off.
 struct PoseError {
   double off_m = 0.0;
-  /// In standard deviations, in the worst direction of those known to no better than 2 cm.
+  /// The pose's error in standard deviations, in the worst direction of those that are known to no
+  /// better than 2 cm.
   double sigmas = 0.0;
 
   bool far() const { return off_m > 0.3; }
