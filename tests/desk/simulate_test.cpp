@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <csignal>
+#include <filesystem>
 #include <iostream>
 #include <map>
 #include <voxlist/mirror_state_t.hpp>
@@ -9,6 +11,7 @@
 #include <voxlist/pointcloud_t.hpp>
 #include <voxlist/pose_t.hpp>
 
+#include "services/voxlist/output/stop.h"
 #include "tests/desk/scan_set.h"
 #include "voxlist/bus/convert.h"
 #include "voxlist/bus/event_log.h"
@@ -109,6 +112,32 @@ TEST_F(Simulate, MakesCloudsThatLieOnTheBuildingsSurfaces) {
             << " m\n";
   EXPECT_LT(standing, 0.001);
   EXPECT_LT(driving, 0.005);
+}
+
+// A simulation with Ctrl-C pressed at its start.
+test::DeskRun interrupted(const std::string& log) {
+  stop_on_interrupt();
+  std::raise(SIGINT);
+  const test::DeskRun done = test::run({"simulate", "-o", log, "--seconds", "3"});
+  stop_on_interrupt();
+  EXPECT_EQ(done.exit_code, kInterrupted);
+  return done;
+}
+
+TEST_F(Simulate, LeavesAnOlderLogAloneWhenInterrupted) {
+  simulated("", "1");
+  const std::string older = test::read_text(work / "run.lcmlog");
+  const auto done = interrupted(work / "run.lcmlog");
+  EXPECT_THAT(done.err, HasSubstr((work / "run.lcmlog") + " stays as it was"));
+  EXPECT_EQ(done.out, "");
+  EXPECT_GT(older.size(), 0u);
+  EXPECT_EQ(test::read_text(work / "run.lcmlog"), older);
+}
+
+TEST_F(Simulate, WritesTheStartOfALogWhereThereIsNoneWhenInterrupted) {
+  const auto done = interrupted(work / "run.lcmlog");
+  EXPECT_THAT(done.err, HasSubstr((work / "run.lcmlog") + " ends there"));
+  EXPECT_TRUE(std::filesystem::exists(work / "run.lcmlog"));
 }
 
 TEST_F(Simulate, TellsAllThatIsWrongWithTheSettingsAndWritesNothing) {

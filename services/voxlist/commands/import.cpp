@@ -86,34 +86,29 @@ int import_scans(const ImportOptions& options, Console& console) {
                         stop_requested() ? "interrupted before the first scan, nothing was written"
                                          : "has no scan that can be read, nothing was written");
   }
-  file.publish();
-  console.say(summary(options, importer.written()));
   if (!omissions.empty()) console.warn("left out: " + omissions.summary());
-  if (stop_requested()) console.warn("interrupted: the log ends there");
-  return stop_requested() ? kInterrupted : 0;
+  return publish_or_keep_older(file, console, summary(options, importer.written()));
 }
 
 }  // namespace
 
 void add_import(CLI::App& program, Command& chosen) {
-  CLI::App* import = program.add_subcommand(
+  CLI::App* command = program.add_subcommand(
       "import", "Turns a folder of scans into an LCM log of CLOUD messages.");
   const auto options = std::make_shared<ImportOptions>();
-  import
+  command
       ->add_option("SCANS_DIR", options->scans,
                    "folder of scan_*.ply or scan_*.pcd; poses.csv in it becomes TRUTH, "
                    "odometry.csv ODOMETRY")
       ->required();
-  import->add_option("-o,--output", options->log, "the log to write; an old one is replaced")
+  command->add_option("-o,--output", options->log, "the log to write; an old one is replaced")
       ->required();
-  import->footer(
+  command->footer(
       "Example:\n"
       "  voxlist import hall -o hall.lcmlog && scripts/replay hall.lcmlog");
-  import->callback([options, &chosen] {
-    chosen = [options](Console& console) { return import_scans(*options, console);
-};
-}  // namespace voxlist::desk
-);
+  command->callback([options, &chosen] {
+    chosen = [options](Console& console) { return import_scans(*options, console); };
+  });
 }
 
 }  // namespace voxlist::desk

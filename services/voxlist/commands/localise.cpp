@@ -94,12 +94,9 @@ int localise(const LocaliseOptions& options, Console& console) {
   std::string table = kHeader;
   for (const Located& located : results) table += row(located);
   io::write_file_atomically(file.path(), table);
-  file.publish();
   if (!input.omissions().empty()) console.warn("left out: " + input.omissions().summary());
   console.say(summary(results));
-  console.say(options.result.string());
-  if (stop_requested()) console.warn("interrupted: the table ends there");
-  return stop_requested() ? kInterrupted : 0;
+  return publish_or_keep_older(file, console, options.result.string());
 }
 
 }  // namespace

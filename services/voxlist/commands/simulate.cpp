@@ -112,10 +112,7 @@ int simulate(const SimulateOptions& options, Console& console) {
     }
   }
   log.close();
-  file.publish();
-  console.say(summary(options, log.counts()));
-  if (stop_requested()) console.warn("interrupted: the log ends there");
-  return stop_requested() ? kInterrupted : 0;
+  return publish_or_keep_older(file, console, summary(options, log.counts()));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <utility>
 
+#include "services/voxlist/output/stop.h"
 #include "voxlist/io/files/atomic_file.h"
 #include "voxlist/io/files/file.h"
 
@@ -38,6 +39,19 @@ void FreshFile::publish() {
   std::error_code failure;
   fs::rename(path_, target_, failure);
   if (failure) throw io::FileError(target_, "cannot be replaced (" + failure.message() + ")");
+}
+
+int publish_or_keep_older(FreshFile& file, Console& console, const std::string& result) {
+  const bool interrupted = stop_requested();
+  std::error_code ignored;
+  if (interrupted && fs::exists(file.target(), ignored)) {
+    console.warn("interrupted: " + file.target().string() + " stays as it was");
+    return kInterrupted;
+  }
+  file.publish();
+  console.say(result);
+  if (interrupted) console.warn("interrupted: " + file.target().string() + " ends there");
+  return interrupted ? kInterrupted : 0;
 }
 
 }  // namespace voxlist::desk

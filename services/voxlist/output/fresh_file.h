@@ -1,6 +1,9 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+
+#include "services/voxlist/output/console.h"
 
 namespace voxlist::desk {
 
@@ -17,6 +20,9 @@ class FreshFile {
   /// Where to write it.
   const std::filesystem::path& path() const { return path_; }
 
+  /// Its place.
+  const std::filesystem::path& target() const { return target_; }
+
   /// Puts it into its place. Throws FileError.
   void publish();
 
@@ -24,5 +30,10 @@ class FreshFile {
   const std::filesystem::path target_;
   std::filesystem::path path_;
 };
+
+/// Publishes the file and says `result`. After Ctrl-C the file is only the start of what was asked
+/// for: it is published, with a warning, where no older file is; an older one stays. Returns the
+/// exit code. Throws FileError.
+int publish_or_keep_older(FreshFile& file, Console& console, const std::string& result);
 
 }  // namespace voxlist::desk
