@@ -84,18 +84,53 @@ class TextVisitor : public SettingsVisitor {
 };
 
 class TomlPrinter : public TextVisitor {
+ public:
+  explicit TomlPrinter(std::string name) : name_(std::move(name)) {}
+
+ private:
   void line(const std::string& key, const std::string& value, const std::string& doc,
             const std::string& range) override {
     text +=
         fmt::format("# {}{}\n{} = {}\n", doc, range.empty() ? "" : " (" + range + ")", key, value);
   }
+  void tables(const char* key, const StructList& list, const char* doc) override {
+    const std::string name = fmt::format("{}.{}", name_, key);
+    for (std::size_t i = 0; i < list.size; ++i) {
+      TomlPrinter printer(name);
+      list.visit(i, printer);
+      text += fmt::format("\n# {}\n[[{}]]\n{}", doc, name, printer.text);
+    }
+    if (list.size == 0) text += example(name, list, doc);
+  }
+
+  // A table as there might be one.
+  static std::string example(const std::string& name, const StructList& list, const char* doc) {
+    TomlPrinter printer(name);
+    list.visit_default(printer);
+    std::string commented = fmt::format("\n# {}\n# [[{}]]\n", doc, name);
+    for (const char c : printer.text) {
+      if (commented.ends_with('\n')) commented += "# ";
+      commented += c;
+    }
+    return commented;
+  }
+
+  const std::string name_;
 };
 
 class MarkdownPrinter : public TextVisitor {
   void line(const std::string& key, const std::string& value, const std::string& doc,
             const std::string& range) override {
-    text += fmt::format("| `{}` | `{}` | {} | {} |\n", key, value, range, doc);
+    text += fmt::format("| `{}{}` | `{}` | {} | {} |\n", prefix_, key, value, range, doc);
   }
+  void tables(const char* key, const StructList& list, const char* doc) override {
+    text += fmt::format("| `[[{}]]` | none |  | {} |\n", prefix_ + key, doc);
+    prefix_ = std::string(key) + '.';
+    list.visit_default(*this);
+    prefix_.clear();
+  }
+
+  std::string prefix_;  // of keys in a list of tables
 };
 
 }  // namespace
@@ -103,7 +138,7 @@ class MarkdownPrinter : public TextVisitor {
 std::string to_toml(const std::vector<Section>& sections) {
   std::string text;
   for (const Section& section : sections) {
-    TomlPrinter printer;
+    TomlPrinter printer(section.name);
     section.visit(printer);
     text += fmt::format("{}[{}]\n{}", text.empty() ? "" : "\n", section.name, printer.text);
   }

@@ -100,6 +100,18 @@ class Reader : public SettingsVisitor {
     else
       chosen = static_cast<std::size_t>(found - names.begin());
   }
+  void tables(const char* key, const StructList& list, const char*) override {
+    const toml::node* node = find(key);
+    if (!node) return;
+    const toml::array* array = node->as_array();
+    if (!array || !(array->empty() || array->is_homogeneous(toml::node_type::table))) {
+      complain(*node, key, fmt::format("must be tables: [[{}.{}]]", name_, key));
+      return;
+    }
+    list.resize(array->size());
+    for (std::size_t i = 0; i < array->size(); ++i)
+      read_table(key, *array->get(i)->as_table(), [&](Reader& reader) { list.visit(i, reader); });
+  }
 
   /// What is wrong with the keys that members asked for.
   const std::vector<std::string>& complaints() const { return complaints_; }
@@ -143,6 +155,16 @@ class Reader : public SettingsVisitor {
     }
     values = std::move(found);
     return node;
+  }
+
+  // One of a list of tables; no other program knows more of its keys.
+  void read_table(const char* key, const toml::table& table,
+                  const std::function<void(Reader&)>& visit) {
+    const std::string name = fmt::format("{}.{}", name_, key);
+    Reader reader(file_, name, table);
+    visit(reader);
+    for (const auto& wrong : {reader.complaints_, reader.unknown_keys()})
+      std::ranges::copy(wrong, std::back_inserter(complaints_));
   }
 
   template <class T>

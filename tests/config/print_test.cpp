@@ -33,6 +33,45 @@ TEST(PrintConfig, WritesTheSectionsOneAfterTheOther) {
             "[first]\n# number (0 to 9)\ncount = 1\n\n[second]\n# number (0 to 9)\ncount = 1\n");
 }
 
+struct Sensor {
+  int rate = 5;
+  void visit(SettingsVisitor& v) { v("rate", rate, "a second", 0, 9); }
+};
+struct Sensors {
+  bool keep = true;
+  std::vector<Sensor> sensors;
+  void visit(SettingsVisitor& v) {
+    v("keep", keep, "keep it all");
+    v("sensor", sensors, "one that looks");
+  }
+};
+
+TEST(PrintConfig, WritesATableForEachOfAList) {
+  Sensors two;
+  two.sensors = {{3}, {4}};
+  EXPECT_EQ(to_toml({section("robot", two)}),
+            "[robot]\n# keep it all\nkeep = true\n"
+            "\n# one that looks\n[[robot.sensor]]\n# a second (0 to 9)\nrate = 3\n"
+            "\n# one that looks\n[[robot.sensor]]\n# a second (0 to 9)\nrate = 4\n");
+}
+
+TEST(PrintConfig, ShowsWhatATableOfAnEmptyListWouldHave) {
+  Sensors none;
+  EXPECT_EQ(to_toml({section("robot", none)}),
+            "[robot]\n# keep it all\nkeep = true\n"
+            "\n# one that looks\n# [[robot.sensor]]\n# # a second (0 to 9)\n# rate = 5\n");
+}
+
+TEST(MarkdownTable, HasTheKeysOfATableOfAList) {
+  Sensors none;
+  EXPECT_EQ(markdown_table(section("", none)),
+            "| key | default | range | meaning |\n"
+            "|---|---|---|---|\n"
+            "| `keep` | `true` |  | keep it all |\n"
+            "| `[[sensor]]` | none |  | one that looks |\n"
+            "| `sensor.rate` | `5` | 0 to 9 | a second |\n");
+}
+
 TEST(MarkdownTable, HasARowForEachKey) {
   SampleConfig sample;
   EXPECT_EQ(markdown_table(section("sample", sample)),

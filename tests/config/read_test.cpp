@@ -175,5 +175,69 @@ TEST_F(ReadConfig, RefusesANameThatAnEnumDoesNotHave) {
   EXPECT_EQ(config.way, Way::kLeft);
 }
 
+struct Sensor {
+  std::string channel;
+  double height_m = 0.5;
+  void visit(SettingsVisitor& v) {
+    v("channel", channel, "where it speaks");
+    v("height_m", height_m, "above the floor", 0.0, 3.0);
+  }
+};
+
+struct Sensors {
+  bool keep = true;
+  std::vector<Sensor> sensors;
+  void visit(SettingsVisitor& v) {
+    v("keep", keep, "keep it all");
+    v("sensor", sensors, "one that looks");
+  }
+};
+
+class ReadTables : public ReadConfig {
+ protected:
+  std::vector<std::string> read(const std::string& text) {
+    std::ofstream(file()) << text;
+    return read_config(file(), {section("robot", robot_)});
+  }
+  Sensors robot_;
+};
+
+TEST_F(ReadTables, MakesAnElementOfEachTableOfAList) {
+  EXPECT_THAT(read("[robot]\nkeep = false\n[[robot.sensor]]\nchannel = 'LEFT'\n"
+                   "[[robot.sensor]]\nchannel = 'RIGHT'\nheight_m = 1.5\n"),
+              IsEmpty());
+  EXPECT_FALSE(robot_.keep);
+  ASSERT_EQ(robot_.sensors.size(), 2u);
+  EXPECT_EQ(robot_.sensors[0].channel, "LEFT");
+  EXPECT_EQ(robot_.sensors[0].height_m, 0.5);
+  EXPECT_EQ(robot_.sensors[1].channel, "RIGHT");
+  EXPECT_EQ(robot_.sensors[1].height_m, 1.5);
+}
+
+TEST_F(ReadTables, ComplainsAboutWhatIsWrongInOneOfAList) {
+  EXPECT_THAT(read("[[robot.sensor]]\n[[robot.sensor]]\nheight_m = 5\ncolour = 'red'\n"),
+              ElementsAre(HasSubstr("robot.toml:3: robot.sensor.height_m is 5, must be 0 to 3"),
+                          HasSubstr("robot.toml:4: no key robot.sensor.colour; known are channel, "
+                                    "height_m")));
+}
+
+TEST_F(ReadTables, RefusesAnythingButTables) {
+  for (const char* wrong : {"[robot.sensor]\n", "[robot]\nsensor = 1\n", "[robot]\nsensor = [1]\n"})
+    EXPECT_THAT(read(wrong),
+                ElementsAre(HasSubstr("robot.sensor must be tables: [[robot.sensor]]")));
+  EXPECT_THAT(read("[robot]\nsensor = []\n"), IsEmpty());
+}
+
+TEST_F(ReadTables, ReadsBackWhatIsPrinted) {
+  robot_.sensors = {{"LEFT", 0.1}, {"RIGHT", 0.2}};
+  const std::string printed = to_toml({section("robot", robot_)});
+  robot_ = {};
+  EXPECT_THAT(read(printed), IsEmpty());
+  EXPECT_EQ(to_toml({section("robot", robot_)}), printed);
+  robot_ = {};
+  EXPECT_THAT(read(to_toml({section("robot", robot_)})), IsEmpty());
+  EXPECT_TRUE(robot_.sensors.empty());
+}
+
 }  // namespace
 }  // namespace voxlist::config
