@@ -37,9 +37,12 @@ says() {
 # fails COMMAND...: it must not succeed.
 fails() { ! "$@"; }
 
-# within SECONDS COMMAND...: it must succeed before that time is over.
+# How many times slower the programs are than a release's: those with a sanitizer.
+slower=${SLOWER:-1}
+
+# within SECONDS COMMAND...: it must succeed before that time is over; slower programs have more.
 within() {
-  local end=$((${EPOCHREALTIME/./} + $1 * 1000000))
+  local end=$((${EPOCHREALTIME/./} + $1 * slower * 1000000))
   shift
   until "$@"; do
     ((${EPOCHREALTIME/./} < end)) || return 1
