@@ -23,7 +23,8 @@ BeamGeometry::BeamGeometry(const CloudAssemblerConfig& config)
       first_rad_(config.beam_first_deg * kRadPerDeg - kAngleSlack_rad),
       last_rad_(config.beam_last_deg * kRadPerDeg + kAngleSlack_rad),
       range_min_m_(config.range_min_m),
-      range_max_m_(config.range_max_m) {
+      range_max_m_(config.range_max_m),
+      robot_(config.robot_boxes_m, "robot_boxes_m") {
   if (first_rad_ >= last_rad_)
     throw std::invalid_argument("beam_first_deg must be below beam_last_deg");
   if (range_min_m_ >= range_max_m_)
@@ -34,16 +35,6 @@ BeamGeometry::BeamGeometry(const CloudAssemblerConfig& config)
     if (blind[i] >= blind[i + 1])
       throw std::invalid_argument("blind_phi_deg: each from must be below its to");
     blind_.push_back({blind[i] * kRadPerDeg, (blind[i + 1] - blind[i]) * kRadPerDeg});
-  }
-  const auto& boxes = config.robot_boxes_m;
-  if (boxes.size() % 6 != 0)
-    throw std::invalid_argument("robot_boxes_m must be boxes of six numbers");
-  for (std::size_t i = 0; i < boxes.size(); i += 6) {
-    const Bounds box{{boxes[i], boxes[i + 2], boxes[i + 4]},
-                     {boxes[i + 1], boxes[i + 3], boxes[i + 5]}};
-    if ((box.low >= box.high).any())
-      throw std::invalid_argument("robot_boxes_m: each from must be below its to");
-    robot_.push_back(box);
   }
 }
 
@@ -61,7 +52,7 @@ BeamFate BeamGeometry::follow(double psi_rad, double beam_rad, float range_m, Be
   if (range_from_mirror_m > range_max_m_) return BeamFate::kTooFar;
   const Eigen::Vector3d point =
       T_base_laser_ * (ray.origin_m + range_from_mirror_m * ray.direction);
-  if (is_robot(point)) return BeamFate::kRobot;
+  if (robot_.hold(point)) return BeamFate::kRobot;
   hit = {T_base_laser_ * ray.origin_m, point};
   return BeamFate::kPoint;
 }
@@ -78,12 +69,6 @@ bool BeamGeometry::is_blind(double phi_rad) const {
   return std::ranges::any_of(blind_, [phi_rad](const Interval& interval) {
     const double turns = (phi_rad - interval.from_rad) / kTurn_rad;
     return (turns - std::floor(turns)) * kTurn_rad <= interval.width_rad;
-  });
-}
-
-bool BeamGeometry::is_robot(const Eigen::Vector3d& point) const {
-  return std::ranges::any_of(robot_, [&point](const Bounds& box) {
-    return (point.array() >= box.low).all() && (point.array() <= box.high).all();
   });
 }
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "voxlist/geometry/mount.h"
 #include "voxlist/scanner/sweep/mirror_model.h"
 
 namespace voxlist::scanner {
@@ -48,13 +49,9 @@ class BeamGeometry {
 
  private:
   bool is_blind(double phi_rad) const;
-  bool is_robot(const Eigen::Vector3d& point) const;
 
   struct Interval {
     double from_rad, width_rad;
-  };
-  struct Bounds {
-    Eigen::Array3d low, high;
   };
 
   MirrorModel<> model_;
@@ -62,7 +59,7 @@ class BeamGeometry {
   double first_rad_, last_rad_;
   double range_min_m_, range_max_m_;
   std::vector<Interval> blind_;
-  std::vector<Bounds> robot_;
+  BodyBoxes robot_;
 };
 
 }  // namespace voxlist::scanner

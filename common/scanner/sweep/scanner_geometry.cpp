@@ -1,6 +1,7 @@
 #include "voxlist/scanner/sweep/scanner_geometry.h"
 
 #include "voxlist/geometry/angle.h"
+#include "voxlist/geometry/mount.h"
 
 namespace voxlist::scanner {
 
@@ -15,12 +16,9 @@ MirrorModel<> ScannerGeometry::model() const {
 }
 
 Pose3 ScannerGeometry::T_base_laser() const {
-  using Eigen::Vector3d;
-  Pose3 T = Pose3::Identity();
-  T.linear() = rotation(mount_yaw_deg * kRadPerDeg, Vector3d::UnitZ()) *
-               rotation(mount_pitch_deg * kRadPerDeg, Vector3d::UnitY()) *
-               rotation(mount_roll_deg * kRadPerDeg, Vector3d::UnitX());
-  T.translation() = Vector3d(mount_x_m, mount_y_m, mount_z_m) - mirror_height_m * T.linear().col(2);
+  Pose3 T =
+      mount_pose({mount_x_m, mount_y_m, mount_z_m}, mount_roll_deg, mount_pitch_deg, mount_yaw_deg);
+  T.translation() -= mirror_height_m * T.linear().col(2);
   return T;
 }
 
