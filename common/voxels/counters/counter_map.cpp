@@ -1,0 +1,84 @@
+#include "voxlist/voxels/counters/counter_map.h"
+
+#include <algorithm>
+#include <numeric>
+#include <stdexcept>
+#include <utility>
+
+#include "voxlist/system/check.h"
+
+namespace voxlist {
+
+CounterMap::CounterMap(double resolution_m, const CounterRule& rule)
+    : resolution_m_(resolution_m), rule_(rule), update_(rule) {
+  if (!(resolution_m > 0.0))
+    throw std::invalid_argument("CounterMap: resolution must be above 0 m");
+}
+
+void CounterMap::add(const RayScratch& scan) {
+  VOXLIST_CHECK(scan.rules().resolution_m == resolution_m_, "a scan of another resolution");
+  scan.for_each_block([&](const Voxel& position, CellStore::Block passed, CellStore::Block hit) {
+    update_.count(passed, hit, changed_block(position));
+  });
+}
+
+void CounterMap::set_block(const Voxel& position, const CounterBlock& block) {
+  changed_block(position) = block;
+}
+
+void CounterMap::forget(const std::vector<Voxel>& blocks) {
+  for (const Voxel& position : blocks)
+    if (positions_.find(position) != Numbering<Voxel>::kNone) changed_block(position) = {};
+}
+
+CellState CounterMap::at(const Voxel& cell) const {
+  const std::uint32_t number = positions_.find(block_of(cell));
+  if (number == Numbering<Voxel>::kNone) return CellState::kUnknown;
+  const unsigned value = block(number).value(bit_in_block(cell));
+  if (value == 0) return CellState::kUnknown;
+  return static_cast<int>(value) - 1 + rule_.lowest >= 0 ? CellState::kOccupied : CellState::kFree;
+}
+
+int CounterMap::count_at(const Voxel& cell) const {
+  const std::uint32_t number = positions_.find(block_of(cell));
+  VOXLIST_CHECK(number != Numbering<Voxel>::kNone, "an unknown cell has no count");
+  return static_cast<int>(block(number).value(bit_in_block(cell))) - 1 + rule_.lowest;
+}
+
+std::vector<std::uint32_t> CounterMap::take_changed() {
+  for (const std::uint32_t number : changed_) is_changed_[number] = false;
+  return std::exchange(changed_, {});
+}
+
+CounterBlock& CounterMap::changed_block(const Voxel& position) {
+  const std::uint32_t number = positions_.number(position);
+  if (number == chunks_.size() * kChunk)
+    chunks_.push_back(std::make_unique<CounterBlock[]>(kChunk));
+  if (number == is_changed_.size()) is_changed_.push_back(false);
+  if (!is_changed_[number]) changed_.push_back(number);
+  is_changed_[number] = true;
+  return chunks_[number / kChunk][number % kChunk];
+}
+
+std::uint64_t CounterMap::hash() const {
+  std::vector<std::uint32_t> order(block_count());
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return block_position(a) < block_position(b);
+  });
+  std::uint64_t hash = 0;
+  for (const std::uint32_t i : order) {
+    if (block(i) == CounterBlock{}) continue;
+    hash = mixed(hash ^ key_of(block_position(i)));
+    for (const BlockBits& plane : block(i).planes)
+      for (const std::uint64_t word : plane) hash = mixed(hash ^ word);
+  }
+  return hash;
+}
+
+std::size_t CounterMap::memory_bytes() const {
+  return chunks_.size() * kChunk * sizeof(CounterBlock) + positions_.memory_bytes() +
+         is_changed_.capacity() / 8 + changed_.capacity() * sizeof(std::uint32_t);
+}
+
+}  // namespace voxlist
