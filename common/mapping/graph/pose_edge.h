@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "voxlist/geometry/uncertain_pose.h"
+
+namespace voxlist::mapping {
+
+/// What is known of where one keyframe stands as another sees it. Keyframes are numbers from 0.
+struct PoseEdge {
+  std::size_t from = 0, to = 0;
+  UncertainPose T_from_to;
+};
+
+/// By how much (m, m, rad; in from's axes) the poses of two keyframes, T_map_from and T_map_to,
+/// miss an edge.
+Eigen::Vector3d miss(const PoseEdge& edge, const Pose2& from, const Pose2& to);
+
+/// The square of that in units of the edge's standard deviations: 3 in the mean of poses that err
+/// as it says.
+double distance2(const PoseEdge& edge, const std::vector<Pose2>& poses);
+
+/// The same, told the other way round.
+PoseEdge reversed(const PoseEdge& edge);
+
+/// How a small motion of a pose (m, m, rad; in the axes of `base`) moves the whole plane, as seen
+/// at its origin: what errors of several poses have in common.
+Eigen::Matrix3d plane_by_pose(const Pose2& base, const Pose2& pose);
+
+}  // namespace voxlist::mapping
