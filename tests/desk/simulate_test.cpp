@@ -114,10 +114,11 @@ TEST_F(Simulate, MakesCloudsThatLieOnTheBuildingsSurfaces) {
   EXPECT_LT(driving, 0.005);
 }
 
-// A simulation with Ctrl-C pressed at its start.
+// A simulation with Ctrl-C pressed at its start, and seen: from then on it may take its time.
 test::DeskRun interrupted(const std::string& log) {
   stop_on_interrupt();
   std::raise(SIGINT);
+  EXPECT_TRUE(stop_requested());
   const test::DeskRun done = test::run({"simulate", "-o", log, "--seconds", "3"});
   stop_on_interrupt();
   EXPECT_EQ(done.exit_code, kInterrupted);
