@@ -93,6 +93,13 @@ std::vector<Loop> choose_loops(const PoseTree& tree, std::span<const Loop> loops
   return agreeing(tree, one_a_look(tree, agreeing(tree, std::move(allowed))));
 }
 
+std::vector<Loop> refused_loops(const PoseTree& tree, std::span<const Loop> loops) {
+  std::vector<Loop> refused;
+  std::copy_if(loops.begin(), loops.end(), std::back_inserter(refused),
+               [&](const Loop& loop) { return !is_allowed(tree, loop.edge); });
+  return agreeing(tree, one_a_look(tree, agreeing(tree, std::move(refused))));
+}
+
 std::vector<Loop> keep_fitting(const PoseTree& tree, const std::vector<Pose2>& solved,
                                std::span<const Loop> loops) {
   std::vector<Loop> fitting;

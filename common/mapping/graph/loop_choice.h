@@ -23,6 +23,10 @@ struct Loop {
 /// it.
 std::vector<Loop> choose_loops(const PoseTree& tree, std::span<const Loop> loops);
 
+/// Loops that agree with each other as those do, although the drive's own way does not allow them:
+/// either it errs by more than it says, or there are two places that look alike.
+std::vector<Loop> refused_loops(const PoseTree& tree, std::span<const Loop> loops);
+
 /// Those of the chosen loops that a solved graph agrees with, if they are still enough of them to
 /// be believed.
 std::vector<Loop> keep_fitting(const PoseTree& tree, const std::vector<Pose2>& solved,

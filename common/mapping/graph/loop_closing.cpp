@@ -24,14 +24,15 @@ ClosedDrive close_loops(const PoseTree& tree, std::span<const PoseEdge> drive,
                         std::span<const Loop> loops, const Pose2& first) {
   const std::vector<Pose2> start = by_drive(tree, first);
   const std::vector<Loop> chosen = choose_loops(tree, loops);
-  if (chosen.empty()) return {start, {}};
+  std::vector<Loop> refused = refused_loops(tree, loops);
+  if (chosen.empty()) return {start, {}, std::move(refused)};
   const std::vector<PoseEdge> edges = edges_of(chosen);
   // From far off, Geman and McClure's kernel would let go of right loops.
   const std::vector<Pose2> near = solve(start, drive, edges, Kernel::kCauchy);
   const std::vector<Pose2> nearer = solve(near, drive, edges, Kernel::kGemanMcClure);
   const std::vector<Loop> kept = keep_fitting(tree, nearer, chosen);
-  if (kept.empty()) return {start, {}};
-  return {solve(nearer, drive, edges_of(kept), Kernel::kGemanMcClure), kept};
+  if (kept.empty()) return {start, {}, std::move(refused)};
+  return {solve(nearer, drive, edges_of(kept), Kernel::kGemanMcClure), kept, std::move(refused)};
 }
 
 }  // namespace voxlist::mapping

@@ -13,6 +13,8 @@ struct ClosedDrive {
   std::vector<Pose2> poses;
   /// The loops that were believed.
   std::vector<Loop> loops;
+  /// Those that agree with each other, but would move the past by more than it may be off.
+  std::vector<Loop> refused;
 };
 
 /// Chooses the loops that may be believed and solves the poses with them; then drops loops that the

@@ -29,6 +29,9 @@ class PoseTree {
  private:
   struct Node {
     std::size_t parent = 0;
+    // An ancestor farther up, so that a way up takes few steps (Myers 1983: a skip list of one
+    // more pointer).
+    std::size_t jump = 0;
     std::size_t depth = 0;
     Pose2 pose;
     double way_m = 0.0;
@@ -38,6 +41,7 @@ class PoseTree {
   };
 
   void add(const PoseEdge& edge);
+  std::size_t up_to(std::size_t keyframe, std::size_t depth) const;
   const Node& meeting(std::size_t a, std::size_t b) const;
 
   std::vector<Node> nodes_;

@@ -80,6 +80,7 @@ void tell(const MapOptions& options, const MapRun& run, const RunFigures& figure
   console.say(fmt::format("{:.1f} s of data in {:.1f} s, {:.1f} times real time", figures.seconds,
                           figures.elapsed_seconds, factor));
   if (const std::string bias = odometry_bias(figures); !bias.empty()) console.say(bias);
+  if (const std::string loops = closed_loops(figures); !loops.empty()) console.say(loops);
   console.say((options.folder / "map.png").string());
 }
 
@@ -102,8 +103,8 @@ bool tell_if_empty(const MapRun& run, Console& console) {
 }
 
 void tell_shortfall(const RunFigures& figures, Console& console) {
-  const std::string missing = shortfall(figures);
-  if (!missing.empty()) console.warn(missing);
+  for (const std::string& line : {refused_loops(figures), shortfall(figures)})
+    if (!line.empty()) console.warn(line);
 }
 
 int map(const MapOptions& options, Console& console) {

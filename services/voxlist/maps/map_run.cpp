@@ -99,6 +99,7 @@ void MapRun::finish() {
   while (join_one()) {
   }
   place_loose();
+  if (!goes_on_ && !stop_requested()) closing_ = close_piece(map(), spool_, localiser_.matcher);
 }
 
 std::vector<StampedPose3> MapRun::trajectory() const {
@@ -118,6 +119,9 @@ RunFigures MapRun::figures() const {
   }
   figures.ambiguous = count_ambiguous();
   figures.lost = scans_ - figures.placed - figures.in_pieces - figures.ambiguous;
+  figures.loops = static_cast<std::int64_t>(closing_.loops);
+  figures.loops_refused = static_cast<std::int64_t>(closing_.refused);
+  figures.loops_moved_m = closing_.moved_m;
   figures.first_lost = first_lost_;
   figures.odometry = odometry_;
   figures.odometry_bias = odometry_bias_;

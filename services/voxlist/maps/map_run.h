@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "services/voxlist/maps/piece.h"
+#include "services/voxlist/maps/piece_closing.h"
 #include "services/voxlist/maps/summary.h"
 #include "services/voxlist/recording/scan_input.h"
 #include "voxlist/mapping/keyframe_spool.h"
@@ -37,7 +38,8 @@ class MapRun {
   /// Adds the scan to the map at a pose that is known.
   void place(Scan scan, const Pose3& T_map_base);
 
-  /// No scan comes any more: what has no place yet is searched for in the map as it has grown.
+  /// No scan comes any more: what has no place yet is searched for in the map as it has grown, and
+  /// the map's loops are closed, but not those of a map that was there.
   void finish();
 
   const mapping::MapBuilder& builder() const { return map().builder(); }
@@ -107,6 +109,7 @@ class MapRun {
   std::size_t searches_ = 0;
   // Scans that belong to no piece: only scans of pieces that no other fitted.
   std::vector<mapping::SpooledKeyframe> loose_;
+  PieceClosing closing_;
   std::int64_t scans_ = 0;
   // Times of scans that were AMBIGUOUS when they came.
   std::vector<std::int64_t> ambiguous_us_;

@@ -1,8 +1,22 @@
 #include "services/voxlist/maps/piece.h"
 
+#include <algorithm>
+#include <cstdlib>
 #include <utility>
 
 namespace voxlist::desk {
+namespace {
+
+// The keyframe that was taken nearest in time.
+std::size_t nearest(const std::vector<StampedPose3>& keyframes, std::int64_t utime_us) {
+  const auto away_us = [&](const StampedPose3& k) { return std::abs(k.utime_us - utime_us); };
+  const auto at =
+      std::min_element(keyframes.begin(), keyframes.end(),
+                       [&](const auto& a, const auto& b) { return away_us(a) < away_us(b); });
+  return static_cast<std::size_t>(at - keyframes.begin());
+}
+
+}  // namespace
 
 Piece::Piece(const matching::LocaliserConfig& localiser, mapping::MapBuilder map,
              mapping::KeyframeSpool& spool, Keep keep)
@@ -21,6 +35,19 @@ bool Piece::take(const Cloud& cloud, const Pose2& T_piece_base) {
 void Piece::add(Cloud cloud, const Pose3& T_piece_base) {
   trajectory_.push_back({cloud.utime_us, T_piece_base});
   add({T_piece_base, std::move(cloud)}, nullptr);
+}
+
+void Piece::move_keyframes(const std::vector<Pose2>& T_piece_base) {
+  const std::vector<StampedPose3> before = builder_.poses();
+  builder_.clear();
+  for (std::size_t i = 0; i < keyframes_.size(); ++i) {
+    keyframes_[i].T_map_base = to_pose3(T_piece_base[i]);
+    builder_.add(spool_.read(keyframes_[i]));
+  }
+  for (StampedPose3& placed : trajectory_) {
+    const std::size_t i = nearest(before, placed.utime_us);
+    placed.pose = keyframes_[i].T_map_base * before[i].pose.inverse() * placed.pose;
+  }
 }
 
 void Piece::join(const Piece& other, const Pose2& T_this_other) {

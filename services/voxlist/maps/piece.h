@@ -39,6 +39,10 @@ class Piece {
   /// Adds a scan to the map at its pose.
   void add(Cloud cloud, const Pose3& T_piece_base);
 
+  /// Makes the map anew with its keyframes at these poses, in their order; other scans keep their
+  /// place beside the keyframe that was taken next before or after them.
+  void move_keyframes(const std::vector<Pose2>& T_piece_base);
+
   /// Takes all that another piece has; `T_this_other` is from that piece to this one.
   void join(const Piece& other, const Pose2& T_this_other);
 

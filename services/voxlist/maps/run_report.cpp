@@ -70,6 +70,22 @@ std::string odometry_bias(const RunFigures& figures) {
       -kDegrees * bias.heading_rad, kDegrees * bias.heading_sigma_rad);
 }
 
+std::string closed_loops(const RunFigures& figures) {
+  if (figures.loops == 0) return {};
+  return fmt::format(
+      "the drive came back: {} looks at ground of long before agree, and moved it by up to {:.2f} "
+      "m",
+      figures.loops, figures.loops_moved_m);
+}
+
+std::string refused_loops(const RunFigures& figures) {
+  if (figures.loops_refused == 0) return {};
+  return fmt::format(
+      "{} looks agree that the drive came back to where it cannot have been, by how sure it was: "
+      "they moved nothing; two places look alike, or scans are bent",
+      figures.loops_refused);
+}
+
 bool mostly_lost(const RunFigures& figures) { return 2 * figures.placed < asked(figures); }
 
 }  // namespace voxlist::desk

@@ -26,6 +26,12 @@ std::string shortfall(const RunFigures& figures);
 /// One line that says what odometry is off by all the time. Empty where scans have not told yet.
 std::string odometry_bias(const RunFigures& figures);
 
+/// One line that says what closing loops has moved. Empty where it moved nothing.
+std::string closed_loops(const RunFigures& figures);
+
+/// One line that says which loops were not believed. Empty when there is none.
+std::string refused_loops(const RunFigures& figures);
+
 /// Whether less than half was placed of the scans whose place was asked for.
 bool mostly_lost(const RunFigures& figures);
 

@@ -44,6 +44,8 @@ Summary summary_of(const RunFigures& figures) {
       {"in_pieces", figures.in_pieces},
       {"without_pose", figures.without_pose},
       {"left_out", figures.left_out},
+      {"loops", figures.loops},
+      {"loops_moved_m", figures.loops_moved_m},
       {"offset_m", {offset_m.x(), offset_m.y(), offset_m.z()}},
       {"seconds", figures.seconds},
       {"elapsed_seconds", figures.elapsed_seconds},

@@ -56,6 +56,17 @@ TEST(LoopClosing, ThreeLooksAloneAreNotBelieved) {
   EXPECT_EQ(result.poses, open(drive));
 }
 
+TEST(LoopClosing, LooksThatAgreeOnWhatTheDriveDoesNotAllowAreRefused) {
+  BlockDrive drive(kKeyframes, 3);
+  drive.loops.clear();
+  drive.forge(10, 40, {5.0, 3.0, 0.0});
+  drive.forge(14, 44, {5.0, 3.0, 0.0});
+  const ClosedDrive result = closed(drive);
+  EXPECT_TRUE(result.loops.empty());
+  EXPECT_EQ(result.refused.size(), 6u);
+  EXPECT_EQ(result.poses, open(drive));
+}
+
 TEST(LoopClosing, OfTwoPlacesThatALookNamesTheOneIsTakenThatOthersAgreeWith) {
   BlockDrive drive(kKeyframes, 4);
   std::vector<Loop> both;

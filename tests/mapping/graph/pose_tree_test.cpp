@@ -29,6 +29,21 @@ TEST(PoseTree, GoesOverBranchesInBothDirections) {
   EXPECT_TRUE(told.covariance.isApprox(composed.covariance, 1e-9));
 }
 
+TEST(PoseTree, TakesEdgesInAnyOrderAndFromEitherEnd) {
+  const BlockDrive drive(60, 3);
+  const PoseTree tree(60, drive.steps);
+  std::vector<PoseEdge> mixed;
+  for (std::size_t i = 0; i < drive.steps.size(); ++i) {
+    const PoseEdge& edge = drive.steps[(i * 7) % drive.steps.size()];
+    mixed.push_back(i % 2 ? reversed(edge) : edge);
+  }
+  const PoseTree sorted(60, in_tree_order(mixed));
+  for (std::size_t i = 0; i < 60; i += 9) {
+    EXPECT_LT(distance_m(sorted.between(i, 59).pose, tree.between(i, 59).pose), 1e-9);
+    EXPECT_NEAR(sorted.way_m(i, 59), tree.way_m(i, 59), 1e-9);
+  }
+}
+
 TEST(PoseEdge, ReversedTwiceIsTheSame) {
   const PoseEdge edge{4, 7, {{2.0, -1.0, 0.4}, variance(0.1, 0.05)}},
       twice = reversed(reversed(edge));

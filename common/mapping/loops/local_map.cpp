@@ -1,0 +1,23 @@
+#include "voxlist/mapping/loops/local_map.h"
+
+namespace voxlist::mapping {
+namespace {
+
+// Before a scan is looked at, it was taken near the prediction with this probability. A judgement:
+// it saw the same ground, or just not.
+constexpr double kInReach = 0.5;
+
+}  // namespace
+
+void LocalMap::add(const Cloud& cloud, const Pose2& T_local_base) {
+  builder_.add({to_pose3(T_local_base), cloud});
+  matcher_.reset();
+}
+
+matching::ReachMatch LocalMap::match(const matching::PreparedScan& scan,
+                                     const UncertainPose& predicted) {
+  if (!matcher_) matcher_ = matching::make_matcher(builder_.map(), config_);
+  return matching::match_in_reach(*matcher_, scan, predicted, kInReach);
+}
+
+}  // namespace voxlist::mapping

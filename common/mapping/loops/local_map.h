@@ -1,0 +1,32 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "voxlist/geometry/cloud.h"
+#include "voxlist/geometry/uncertain_pose.h"
+#include "voxlist/mapping/map_builder.h"
+#include "voxlist/matching/localisation/reach_match.h"
+
+namespace voxlist::mapping {
+
+/// Hands out the cloud (in base) of a keyframe, by its number.
+using ReadCloud = std::function<Cloud(std::size_t)>;
+
+/// A map of few keyframes, in the frame of one of them, that scans are matched with.
+class LocalMap {
+ public:
+  explicit LocalMap(const matching::MatcherConfig& config) : config_(config) {}
+
+  void add(const Cloud& cloud, const Pose2& T_local_base);
+
+  /// Where a scan was taken near a prediction, T_local_base.
+  matching::ReachMatch match(const matching::PreparedScan& scan, const UncertainPose& predicted);
+
+ private:
+  matching::MatcherConfig config_;
+  MapBuilder builder_;
+  std::unique_ptr<matching::Matcher> matcher_;
+};
+
+}  // namespace voxlist::mapping

@@ -1,0 +1,197 @@
+#include "voxlist/mapping/loops/neighbours.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <deque>
+#include <limits>
+#include <memory>
+#include <numeric>
+#include <optional>
+
+#include "voxlist/mapping/graph/pose_tree.h"
+
+namespace voxlist::mapping {
+namespace {
+
+// Neighbours stand in the map as it was made to so much (m, rad), as standard deviations: what a
+// tracked scan, or one that joined two pieces, may be off by.
+constexpr double kMap_m = 0.3, kMap_rad = 0.02;
+// A match of neighbours is taken from this probability on; of 245 pairs of real stations that had
+// more, one was off by more than 0.3 m.
+constexpr double kTaken = 0.5;
+// A match that leaves a direction less sure than this (m) says no more than the map did.
+constexpr double kTold_m = 0.25;
+// Keyframes that are farther apart than this (m) are not matched to join two parts of a drive.
+constexpr double kSight_m = 20.0, kAnywhere_m = std::numeric_limits<double>::infinity();
+// Most matches that are tried for that, each some 20 ms.
+constexpr std::size_t kMostTries = 200;
+// A scan that fits one neighbour too little is matched with so many in a row. The stations that
+// such a match is needed for are 11 and 17 m apart.
+constexpr std::size_t kMore = 4;
+// What matches of neighbours have in common and do not tell, since both scans are bent or tilted
+// alike: it grows with the root of the way (m, rad at 1 m). Real stations 7 m apart differ from
+// their reference by 0.01 m and 0.001 rad in the median, and dense drives by 1 mm and 0.01 deg a
+// scan.
+constexpr double kDrift_m = 0.004, kDrift_rad = 0.0004;
+// Where nothing but the map tells how two keyframes stand (m, rad): a share of their distance, too.
+constexpr double kUnmatched_m = 0.1, kUnmatchedShare = 0.02, kUnmatched_rad = 0.02;
+
+Eigen::Matrix3d variances(double shift_m, double turn_rad) {
+  return Eigen::Vector3d(shift_m * shift_m, shift_m * shift_m, turn_rad * turn_rad).asDiagonal();
+}
+
+// A keyframe made ready for matching, both ways.
+struct Prepared {
+  std::size_t number;
+  Cloud cloud;
+  matching::PreparedScan scan;
+  LocalMap map;
+
+  Prepared(std::size_t keyframe, Cloud read, const matching::MatcherConfig& config)
+      : number(keyframe), cloud(std::move(read)), scan(cloud, config.scan), map(config) {
+    map.add(cloud, {});
+  }
+};
+
+// The mean of two looks at the same motion, as far as they agree. Both are of the same two scans,
+// so together they are no surer than one of them.
+UncertainPose mean_of(const UncertainPose& a, const UncertainPose& b) {
+  const Eigen::Matrix3d ia = a.covariance.inverse(), ib = b.covariance.inverse();
+  const Eigen::Vector3d off{b.pose.x_m - a.pose.x_m, b.pose.y_m - a.pose.y_m,
+                            wrap_angle(b.pose.yaw_rad - a.pose.yaw_rad)};
+  const Eigen::Matrix3d mean = (ia + ib).inverse();
+  const Eigen::Vector3d step = mean * ib * off;
+  UncertainPose both{
+      {a.pose.x_m + step.x(), a.pose.y_m + step.y(), wrap_angle(a.pose.yaw_rad + step.z())},
+      2.0 * mean};
+  both.covariance += 0.25 * off * off.transpose();
+  return both;
+}
+
+class Neighbours {
+ public:
+  Neighbours(const std::vector<Pose2>& poses, const ReadCloud& read,
+             const matching::MatcherConfig& config)
+      : poses_(poses), read_(read), config_(config), part_(poses.size()) {
+    std::iota(part_.begin(), part_.end(), std::size_t{0});
+  }
+
+  std::vector<PoseEdge> join() {
+    for (std::size_t i = 1; i < poses_.size(); ++i) join(i - 1, i) || join_with_more(i - 1, i);
+    join_parts(kSight_m, [this](std::size_t a, std::size_t b) { return join(a, b); });
+    join_parts(kAnywhere_m, [this](std::size_t a, std::size_t b) { return add(unmatched(a, b)); });
+    return std::move(edges_);
+  }
+
+ private:
+  struct Pair {
+    double distance_m;
+    std::size_t a, b;
+  };
+
+  Prepared& prepared(std::size_t keyframe) {
+    const auto at = std::find_if(kept_.begin(), kept_.end(),
+                                 [&](const auto& kept) { return kept->number == keyframe; });
+    if (at != kept_.end()) return **at;
+    if (kept_.size() > 3) kept_.pop_front();
+    kept_.push_back(std::make_unique<Prepared>(keyframe, read_(keyframe), config_));
+    return *kept_.back();
+  }
+
+  UncertainPose as_mapped(std::size_t from, std::size_t to) const {
+    return {poses_[from].inverse() * poses_[to], variances(kMap_m, kMap_rad)};
+  }
+
+  // A scan in the map of one other.
+  std::optional<PoseEdge> matched(std::size_t from, std::size_t to) {
+    Prepared &map = prepared(from), &scan = prepared(to);
+    return taken(from, to, map.map.match(scan.scan, as_mapped(from, to)));
+  }
+
+  // A scan in the map of several on the other side of a step, as they are mapped.
+  std::optional<PoseEdge> matched_with_more(std::size_t from, std::size_t to) {
+    LocalMap map(config_);
+    for (std::size_t i = 0; i < kMore; ++i) {
+      const std::size_t next = from < to ? from - i : from + i;
+      if (next >= poses_.size()) break;
+      map.add(read_(next), poses_[from].inverse() * poses_[next]);
+    }
+    return taken(from, to, map.match(prepared(to).scan, as_mapped(from, to)));
+  }
+
+  std::optional<PoseEdge> taken(std::size_t from, std::size_t to,
+                                const matching::ReachMatch& found) const {
+    if (found.best() < kTaken) return std::nullopt;
+    const matching::MatchMode& best = found.match.modes.front();
+    if (worst_sigma_m(best.covariance) > kTold_m) return std::nullopt;
+    return PoseEdge{from, to, {best.pose, best.covariance}};
+  }
+
+  bool join(std::size_t from, std::size_t to) {
+    return add_both(matched(from, to), matched(to, from));
+  }
+
+  bool join_with_more(std::size_t from, std::size_t to) {
+    return add_both(matched_with_more(from, to), matched_with_more(to, from));
+  }
+
+  bool add_both(const std::optional<PoseEdge>& there, const std::optional<PoseEdge>& back) {
+    if (!there && !back) return false;
+    PoseEdge edge = there ? *there : reversed(*back);
+    if (there && back) edge.T_from_to = mean_of(edge.T_from_to, reversed(*back).T_from_to);
+    const Pose2& motion = edge.T_from_to.pose;
+    edge.T_from_to.covariance += (1.0 + distance_m(motion, {})) * variances(kDrift_m, kDrift_rad);
+    return add(edge);
+  }
+
+  PoseEdge unmatched(std::size_t from, std::size_t to) const {
+    UncertainPose motion = as_mapped(from, to);
+    motion.covariance = variances(
+        kUnmatched_m + kUnmatchedShare * distance_m(poses_[from], poses_[to]), kUnmatched_rad);
+    return {from, to, motion};
+  }
+
+  // Tries pairs of different parts, the nearest first.
+  template <class Join>
+  void join_parts(double within_m, const Join& join) {
+    std::size_t tries = 0;
+    for (const Pair& pair : pairs_of_parts(within_m))
+      if (part_[pair.a] != part_[pair.b] && ++tries <= kMostTries) join(pair.a, pair.b);
+  }
+
+  std::vector<Pair> pairs_of_parts(double within_m) const {
+    std::vector<Pair> pairs;
+    for (std::size_t b = 1; b < poses_.size(); ++b)
+      for (std::size_t a = 0; a < b; ++a)
+        if (const double away_m = distance_m(poses_[a], poses_[b]);
+            part_[a] != part_[b] && away_m <= within_m)
+          pairs.push_back({away_m, a, b});
+    std::stable_sort(pairs.begin(), pairs.end(),
+                     [](const Pair& a, const Pair& b) { return a.distance_m < b.distance_m; });
+    return pairs;
+  }
+
+  bool add(const PoseEdge& edge) {
+    edges_.push_back(edge);
+    const std::size_t gone = part_[edge.to], stays = part_[edge.from];
+    std::replace(part_.begin(), part_.end(), gone, stays);
+    return true;
+  }
+
+  const std::vector<Pose2>& poses_;
+  const ReadCloud& read_;
+  const matching::MatcherConfig config_;
+  // Which part of the drive each keyframe is in, by the number of one of them.
+  std::vector<std::size_t> part_;
+  std::vector<PoseEdge> edges_;
+  std::deque<std::unique_ptr<Prepared>> kept_;
+};
+
+}  // namespace
+
+std::vector<PoseEdge> join_neighbours(const std::vector<Pose2>& poses, const ReadCloud& read,
+                                      const matching::MatcherConfig& config) {
+  return in_tree_order(Neighbours(poses, read, config).join());
+}
+
+}  // namespace voxlist::mapping

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "services/voxlist/maps/piece.h"
+#include "voxlist/mapping/loops/map_closing.h"
+
+namespace voxlist::desk {
+
+/// What closing a piece's loops came to.
+struct PieceClosing {
+  std::size_t loops = 0, refused = 0;
+  /// How far the keyframe was moved that was moved farthest (m).
+  double moved_m = 0.0;
+};
+
+/// Closes the loops of a piece, whose keyframes are all in the spool: where its drive came back to
+/// ground of long before, its keyframes go where all scans agree, and its map is made anew. The
+/// keyframe that is the piece's origin stays.
+PieceClosing close_piece(Piece& piece, mapping::KeyframeSpool& spool,
+                         const matching::MatcherConfig& config);
+
+}  // namespace voxlist::desk
