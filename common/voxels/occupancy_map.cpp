@@ -3,16 +3,11 @@
 #include <algorithm>
 
 #include "voxlist/voxels/scan_cells.h"
+#include "voxlist/voxels/scan_hits.h"
 #include "voxlist/voxels/scan_rays.h"
 
 namespace voxlist {
 namespace {
-
-void insert(const Voxel& voxel, VoxelMap& map, std::vector<Voxel>& changed) {
-  if (!map.insert(voxel)) return;
-  const Voxel block = block_of(voxel);
-  if (changed.empty() || changed.back() != block) changed.push_back(block);
-}
 
 void sort_once(std::vector<Voxel>& blocks) {
   std::sort(blocks.begin(), blocks.end());
@@ -27,16 +22,17 @@ ChangedBlocks add_scan(const Cloud& cloud_base, const Pose3& T_map_base, double 
   const double passed_resolution_m = map.passed.resolution_m();
   ChangedBlocks changed;
   changed.from = map.revision();
+  ScanHits hits;
   ScanCells passed;
   visit_rays(cloud_base, T_map_base, max_range_m, resolution_m,
              [&](const Eigen::Vector3d& origin, const Eigen::Vector3d& point) {
-               insert(voxel_at(point, resolution_m), map.occupied, changed.occupied);
+               hits.mark(voxel_at(point, resolution_m));
                mark_passed(origin, point, passed_resolution_m, passed);
                if (passed.memory_bytes() > kMaxScanBytes)
                  passed.move_to(map.passed, changed.passed);
              });
   passed.move_to(map.passed, changed.passed);
-  sort_once(changed.occupied);
+  changed.occupied = hits.put_into(map.occupied);
   sort_once(changed.passed);
   changed.to = map.revision();
   return changed;
