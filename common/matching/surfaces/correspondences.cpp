@@ -5,11 +5,11 @@
 namespace voxlist::matching {
 
 template <int kDof>
-std::vector<Correspondence<kDof>> find_correspondences(const SurfelMap& surfels,
-                                                       const RayPoints& scan, const Pose3& pose,
-                                                       double scale_m, LookUps& look_ups) {
+void find_correspondences(const SurfelMap& surfels, const RayPoints& scan, const Pose3& pose,
+                          double scale_m, LookUps& look_ups,
+                          std::vector<Correspondence<kDof>>& found) {
   VOXLIST_CHECK(look_ups.size() == scan.points.size(), "a look-up for each point is needed");
-  std::vector<Correspondence<kDof>> found;
+  found.clear();
   found.reserve(scan.points.size());
   const Eigen::Matrix3d turn = pose.linear();
   const Eigen::Vector3d base = pose.translation();
@@ -24,12 +24,11 @@ std::vector<Correspondence<kDof>> find_correspondences(const SurfelMap& surfels,
     const double falloff = scale2 / (scale2 + residual * residual);
     found.push_back({surfel, arm, slope<kDof>(surfel->normal, arm), residual, falloff * falloff});
   }
-  return found;
 }
 
-template std::vector<Correspondence<3>> find_correspondences(const SurfelMap&, const RayPoints&,
-                                                             const Pose3&, double, LookUps&);
-template std::vector<Correspondence<6>> find_correspondences(const SurfelMap&, const RayPoints&,
-                                                             const Pose3&, double, LookUps&);
+template void find_correspondences(const SurfelMap&, const RayPoints&, const Pose3&, double,
+                                   LookUps&, std::vector<Correspondence<3>>&);
+template void find_correspondences(const SurfelMap&, const RayPoints&, const Pose3&, double,
+                                   LookUps&, std::vector<Correspondence<6>>&);
 
 }  // namespace voxlist::matching

@@ -27,10 +27,11 @@ struct Correspondence {
 using LookUps = std::vector<SurfelMap::LookUp>;
 
 /// Finds the surfel of each point that lies in a cube with one on which its ray may have ended, for
-/// kDof = 3 or 6. `look_ups` has one entry for each point of the scan.
+/// kDof = 3 or 6, in the place of what `found` held. `look_ups` has one entry for each point of the
+/// scan.
 template <int kDof>
-std::vector<Correspondence<kDof>> find_correspondences(const SurfelMap& surfels,
-                                                       const RayPoints& scan, const Pose3& pose,
-                                                       double scale_m, LookUps& look_ups);
+void find_correspondences(const SurfelMap& surfels, const RayPoints& scan, const Pose3& pose,
+                          double scale_m, LookUps& look_ups,
+                          std::vector<Correspondence<kDof>>& found);
 
 }  // namespace voxlist::matching

@@ -151,27 +151,31 @@ Evidence EvidenceMap::at(const Pose2& pose, std::span<const ScanRay> rays, doubl
   return sum;
 }
 
+// Most ends that are hits are hits in their own block, so that is looked at first.
 bool EvidenceMap::hit(const Eigen::Vector3d& end, std::int32_t reach) const {
-  const Voxel v = voxel_at(end, map_.occupied.resolution_m());
+  const Voxel v = voxel_at(end, map_.occupied.resolution_m()), own = block_of(v);
+  const auto touched = [&](const Voxel& b) {
+    const VoxelBlock* block = block_at(b);
+    return block &&
+           touches(*block, {v.x - kBlockEdge * b.x, v.y - kBlockEdge * b.y, v.z - kBlockEdge * b.z},
+                   reach);
+  };
+  if (touched(own)) return true;
   const Voxel first = block_of({v.x - reach, v.y - reach, v.z - reach}),
               last = block_of({v.x + reach, v.y + reach, v.z + reach});
-  for (Voxel b = first; b.z <= last.z; ++b.z)
-    for (b.y = first.y; b.y <= last.y; ++b.y)
-      for (b.x = first.x; b.x <= last.x; ++b.x) {
-        const VoxelBlock* block = map_.occupied.find_block(b);
-        if (block &&
-            touches(*block,
-                    {v.x - kBlockEdge * b.x, v.y - kBlockEdge * b.y, v.z - kBlockEdge * b.z},
-                    reach))
-          return true;
-      }
+  for (std::int32_t z = first.z; z <= last.z; ++z)
+    for (std::int32_t y = first.y; y <= last.y; ++y)
+      for (std::int32_t x = first.x; x <= last.x; ++x)
+        if (const Voxel b{x, y, z}; b != own && touched(b)) return true;
   return false;
 }
 
+const VoxelBlock* EvidenceMap::block_at(const Voxel& position) const {
+  return filled_.test(cell_of(position)) ? map_.occupied.find_block(position) : nullptr;
+}
+
 bool EvidenceMap::in_matter(const Voxel& voxel) const {
-  const Voxel position = block_of(voxel);
-  if (!filled_.test(cell_of(position))) return false;
-  const VoxelBlock* block = map_.occupied.find_block(position);
+  const VoxelBlock* block = block_at(block_of(voxel));
   if (!block) return false;
   const auto z = static_cast<std::size_t>(voxel.z & 6);
   const std::uint64_t two_by_two = std::uint64_t{0x303} << ((voxel.x & 6) + 8 * (voxel.y & 6));

@@ -65,6 +65,7 @@ class EvidenceMap {
   Evidence at(const Pose2& T_map_base, std::span<const ScanRay> rays, double reach_m,
               const SurfelMap* surfels) const;
   Voxel cell_of(const Voxel& block) const;
+  const VoxelBlock* block_at(const Voxel& position) const;
   bool hit(const Eigen::Vector3d& end, std::int32_t reach) const;
   bool in_matter(const Voxel& voxel) const;
   bool violated(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const;

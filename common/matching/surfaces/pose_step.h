@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <utility>
 
 #include "voxlist/geometry/pose.h"
 
@@ -28,14 +29,34 @@ Step<kDof> shifts_and_turns(double shift_m, double turn_rad) {
   return all;
 }
 
+/// Adds column(j) to each column of the lower triangle; what is above it is left undefined. From
+/// even rows on, so that two elements at a time are added.
+template <int kDof, class Column>
+void add_lower(const Column& column, Square<kDof>& sum) {
+  const auto add = [&]<int... j>(std::integer_sequence<int, j...>) {
+    ((sum.col(j).template tail<kDof - j / 2 * 2>() += column(j).template tail<kDof - j / 2 * 2>()),
+     ...);
+  };
+  add(std::make_integer_sequence<int, kDof>());
+}
+
+/// The symmetric matrix with this lower triangle.
+template <int kDof>
+Square<kDof> mirrored(const Square<kDof>& lower) {
+  return lower.template selfadjointView<Eigen::Lower>();
+}
+
 /// How a point's distance from a plane with normal n changes by a step; `arm` is from base to the
 /// point, in map's axes.
 template <int kDof>
 Step<kDof> slope(const Eigen::Vector3d& n, const Eigen::Vector3d& arm) {
+  const double yaw = arm.x() * n.y() - arm.y() * n.x();
   if constexpr (kDof == 3)
-    return {n.x(), n.y(), arm.x() * n.y() - arm.y() * n.x()};
+    return {n.x(), n.y(), yaw};
   else
-    return (Step<6>() << n, arm.cross(n)).finished();
+    return {
+        n.x(), n.y(), n.z(), arm.y() * n.z() - arm.z() * n.y(), arm.z() * n.x() - arm.x() * n.z(),
+        yaw};
 }
 
 inline void move(const Step<3>& step, Pose3& pose) {

@@ -19,13 +19,14 @@ constexpr double kInlierScales = 2.0;
 // The normal equations of the correspondences, and their weighted squares.
 template <int kDof>
 struct NormalEquations {
-  Square<kDof> information = Square<kDof>::Zero();
+  Square<kDof> information = Square<kDof>::Zero();  // its lower triangle
   Step<kDof> gradient = Step<kDof>::Zero();
   double squares = 0.0, weights = 0.0;
 
   explicit NormalEquations(const std::vector<Correspondence<kDof>>& correspondences) {
     for (const Correspondence<kDof>& c : correspondences) {
-      information += c.weight * c.slope * c.slope.transpose();
+      const Step<kDof> weighted = c.weight * c.slope;
+      add_lower<kDof>([&](int j) { return weighted * c.slope[j]; }, information);
       gradient += c.weight * c.residual * c.slope;
       squares += c.weight * c.residual * c.residual;
       weights += c.weight;
@@ -37,7 +38,7 @@ struct NormalEquations {
                   double least_sigma_m) const {
     const double variance =
         std::max(squares / std::max(weights, 1.0), least_sigma_m * least_sigma_m);
-    return (information / variance + prior_information)
+    return (mirrored<kDof>(information) / variance + prior_information)
         .ldlt()
         .solve(-(gradient / variance + prior_information * off));
   }
@@ -96,7 +97,7 @@ Pose3 refine_pose(const SurfelMap& surfels, const RayPoints& scan, const Pose3& 
   std::vector<Correspondence<kDof>> correspondences;
   LookUps look_ups(scan.points.size());
   for (int i = 0; i < config.max_iterations && !result.converged; ++i) {
-    correspondences = find_correspondences<kDof>(surfels, scan, pose, config.scale_m, look_ups);
+    find_correspondences(surfels, scan, pose, config.scale_m, look_ups, correspondences);
     const NormalEquations<kDof> equations(correspondences);
     const Step<kDof> step = equations.step(prior_information, off, config.least_sigma_m);
     move(step, pose);

@@ -39,16 +39,29 @@ struct SurfelSums {
 };
 
 // What a normal that is off by chance would seem to hold, for a tilt variance of 1: the directions
-// across it (a corridor's long axis), which nothing holds.
+// across it (a corridor's long axis), which nothing holds: all shifts of the point, less the one
+// along the normal. Column by column.
 template <int kDof>
-Square<kDof> held_by_chance(const Correspondence<kDof>& c) {
-  Square<kDof> chance = -c.slope * c.slope.transpose();
-  for (int axis = 0; axis < kShifts<kDof>; ++axis) {
-    const Step<kDof> along = slope<kDof>(Eigen::Vector3d::Unit(axis), c.arm);
-    chance += along * along.transpose();
+class HeldByChance {
+ public:
+  explicit HeldByChance(const Correspondence<kDof>& c) : slope_(c.slope) {
+    for (int axis = 0; axis < kShifts<kDof>; ++axis)
+      shifts_[axis] = slope<kDof>(Eigen::Vector3d::Unit(axis), c.arm);
   }
-  return chance;
-}
+
+  auto column(int j) const {
+    const auto across =
+        -slope_ * slope_[j] + shifts_[0] * shifts_[0][j] + shifts_[1] * shifts_[1][j];
+    if constexpr (kDof == 3)
+      return across;
+    else
+      return across + shifts_[2] * shifts_[2][j];
+  }
+
+ private:
+  const Step<kDof>& slope_;
+  Step<kDof> shifts_[kShifts<kDof>];
+};
 
 template <int kDof>
 std::vector<SurfelSums<kDof>> by_surfel(const std::vector<Correspondence<kDof>>& correspondences) {
@@ -58,14 +71,19 @@ std::vector<SurfelSums<kDof>> by_surfel(const std::vector<Correspondence<kDof>>&
     const auto number = numbers.number(c.surfel);
     if (number == surfels.size()) surfels.emplace_back();
     SurfelSums<kDof>& s = surfels[number];
-    s.information += c.weight * (c.slope * c.slope.transpose() -
-                                 kTiltExcess * c.surfel->tilt_variance * held_by_chance(c));
+    const HeldByChance<kDof> chance(c);
+    const double excess = kTiltExcess * c.surfel->tilt_variance;
+    const auto told = [&](int j) {
+      return c.weight * (c.slope * c.slope[j] - excess * chance.column(j));
+    };
+    add_lower<kDof>(told, s.information);
     s.surfel = c.surfel;
     s.pull += c.weight * c.residual * c.slope;
     s.weights += c.weight;
     s.residuals += c.weight * c.residual;
     s.squares += c.weight * c.residual * c.residual;
   }
+  for (SurfelSums<kDof>& s : surfels) s.information = mirrored<kDof>(s.information);
   return surfels;
 }
 

@@ -1,11 +1,9 @@
 #include "voxlist/matching/surfaces/surfels.h"
 
 #include <cmath>
-#include <limits>
 
 #include "voxlist/matching/surfaces/surfel_fit.h"
 #include "voxlist/system/check.h"
-#include "voxlist/voxels/fast_cell.h"
 
 namespace voxlist::matching {
 namespace {
@@ -44,23 +42,6 @@ SurfelMap::SurfelMap(const OccupancyMap& map, const SurfelConfig& config)
     level.blocks = blocks;
     blocks *= 2;
   }
-}
-
-const Surfel* SurfelMap::find(const Eigen::Vector3d& point, const Eigen::Vector3d& origin,
-                              LookUp& last) const {
-  const Voxel position = cell_at(point, cubes_per_m_);
-  if (!last.cube || position != last.position) last = {position, cube_at(0, position).speaker};
-  const Cube& cube = *last.cube;
-  const Surfel* nearest = nullptr;
-  double least_m = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < cube.count; ++i) {
-    const Surfel& side = cube.sides[i];
-    const double off_m = std::abs(side.normal.dot(point - side.mean));
-    if (off_m >= least_m || !side.faces(origin, point)) continue;
-    nearest = &side;
-    least_m = off_m;
-  }
-  return nearest;
 }
 
 void SurfelMap::map_changed() {

@@ -2,10 +2,13 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <deque>
+#include <limits>
 #include <vector>
 
+#include "voxlist/voxels/fast_cell.h"
 #include "voxlist/voxels/numbering.h"
 #include "voxlist/voxels/occupancy_map.h"
 
@@ -97,6 +100,9 @@ class SurfelMap {
     // Whose surfels stand for this cube's: its own, or those of a larger one about it.
     const Cube* speaker = nullptr;
   };
+  // Of a cube's surfels the nearest that a ray from `origin` may have ended on.
+  static const Surfel* nearest(const Cube& cube, const Eigen::Vector3d& point,
+                               const Eigen::Vector3d& origin);
   // The cubes of one size, twice that of the level below.
   struct Level {
     std::int32_t blocks = 1;  // along a cube's edge
@@ -113,5 +119,27 @@ class SurfelMap {
   MapRevision revision_;  // of the map that the cubes were fitted in
   mutable std::array<Level, 3> levels_;
 };
+
+inline const Surfel* SurfelMap::nearest(const Cube& cube, const Eigen::Vector3d& point,
+                                        const Eigen::Vector3d& origin) {
+  const Surfel* nearest = nullptr;
+  double least_m = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < cube.count; ++i) {
+    const Surfel& side = cube.sides[i];
+    const double off_m = std::abs(side.normal.dot(point - side.mean));
+    if (off_m >= least_m || !side.faces(origin, point)) continue;
+    nearest = &side;
+    least_m = off_m;
+  }
+  return nearest;
+}
+
+// In the header, because a refinement calls it for each of its points, again and again.
+inline const Surfel* SurfelMap::find(const Eigen::Vector3d& point, const Eigen::Vector3d& origin,
+                                     LookUp& last) const {
+  const Voxel position = cell_at(point, cubes_per_m_);
+  if (!last.cube || position != last.position) last = {position, cube_at(0, position).speaker};
+  return nearest(*last.cube, point, origin);
+}
 
 }  // namespace voxlist::matching
