@@ -21,7 +21,7 @@ struct CellBits {
   bool is_full;               ///< a block found no place
 };
 
-/// Place 1 takes what nobody wants to know. So does the block after the box's last one.
+/// Place 1 takes what finds none.
 inline constexpr std::uint32_t kNoPlace = 1, kFirstPlace = 2;
 
 inline constexpr std::uint64_t kWordsInBlock = 8;

@@ -21,12 +21,11 @@ void CellStore::begin(int block_bits, std::size_t most_blocks) {
   bits_.most_places = static_cast<std::uint32_t>(most_blocks + kFirstPlace);
   bits_.is_full = false;
   if (block_bits > room_bits_) {
-    places_.reset(zeros((std::size_t{1} << block_bits) + 1));
+    places_.reset(zeros(std::size_t{1} << block_bits));
     bits_.places = places_.get();
     room_bits_ = block_bits;
   }
   block_bits_ = block_bits;
-  bits_.places[std::size_t{1} << block_bits] = kNoPlace;
 }
 
 void CellStore::make_room(std::size_t places) {
@@ -40,7 +39,6 @@ void CellStore::make_room(std::size_t places) {
 
 void CellStore::forget() {
   for (std::uint32_t i = kFirstPlace; i < bits_.end; ++i) bits_.places[bits_.blocks[i]] = 0;
-  if (block_bits_ >= 0) bits_.places[std::size_t{1} << block_bits_] = 0;
 }
 
 std::size_t CellStore::used_bytes() const {

@@ -100,6 +100,14 @@ unsigned CounterBlock::value(std::size_t cell) const {
   return value;
 }
 
+void CounterBlock::set(std::size_t cell, unsigned value) {
+  const std::uint64_t bit = std::uint64_t{1} << cell % 64;
+  for (unsigned p = 0; p < 4; ++p) {
+    std::uint64_t& word = planes[p][cell / 64];
+    word = (value >> p & 1) != 0 ? word | bit : word & ~bit;
+  }
+}
+
 CounterUpdate::CounterUpdate(const CounterRule& rule)
     : hit_(static_cast<unsigned>(rule.hit)),
       pass_(static_cast<unsigned>(rule.pass)),

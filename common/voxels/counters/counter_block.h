@@ -12,7 +12,7 @@ namespace voxlist {
 /// The counters of a block's 512 cells in four bit planes: bit i of planes[p] is bit p of cell i's
 /// counter. 0 is unknown; a count is stored as its distance to the lowest one and 1 more.
 struct CounterBlock {
-  std::array<BlockBits, 4> planes{};
+  alignas(64) std::array<BlockBits, 4> planes{};
 
   bool operator==(const CounterBlock&) const = default;
 
@@ -21,6 +21,7 @@ struct CounterBlock {
 
   /// The stored value of a cell.
   unsigned value(std::size_t cell) const;
+  void set(std::size_t cell, unsigned value);
 };
 
 /// Changes counters as a rule says, 128 cells at a time: about 50 operations on bits where nothing

@@ -1,6 +1,7 @@
 #include "voxlist/voxels/counters/counter_map.h"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <stdexcept>
 #include <utility>
@@ -15,20 +16,33 @@ CounterMap::CounterMap(double resolution_m, const CounterRule& rule)
     throw std::invalid_argument("CounterMap: resolution must be above 0 m");
 }
 
-void CounterMap::add(const RayScratch& scan) {
+void CounterMap::add(const RayScratch& scan, const Numbering<Voxel>* only) {
   VOXLIST_CHECK(scan.rules().resolution_m == resolution_m_, "a scan of another resolution");
+  std::array<Update, kAtOnce> updates;
+  std::size_t size = 0;
   scan.for_each_block([&](const Voxel& position, CellStore::Block passed, CellStore::Block hit) {
-    update_.count(passed, hit, changed_block(position));
+    if (only && only->find(position) == Numbering<Voxel>::kNone) return;
+    updates[size++] = {fetched(counters_at(position)), passed.data(), hit.data()};
+    if (size == kAtOnce) count(std::span(updates.data(), std::exchange(size, 0)));
   });
+  count(std::span(updates.data(), size));
 }
 
-void CounterMap::set_block(const Voxel& position, const CounterBlock& block) {
-  changed_block(position) = block;
+// Asks for a block's memory before it is needed: blocks lie anywhere.
+CounterBlock* CounterMap::fetched(CounterBlock& block) {
+  for (const BlockBits& plane : block.planes) __builtin_prefetch(&plane, 1);
+  return &block;
+}
+
+void CounterMap::count(std::span<const Update> updates) const {
+  for (const Update& u : updates)
+    update_.count(CellStore::Block(u.passed, kWordsInBlock), CellStore::Block(u.hit, kWordsInBlock),
+                  *u.block);
 }
 
 void CounterMap::forget(const std::vector<Voxel>& blocks) {
   for (const Voxel& position : blocks)
-    if (positions_.find(position) != Numbering<Voxel>::kNone) changed_block(position) = {};
+    if (positions_.find(position) != Numbering<Voxel>::kNone) counters_at(position) = {};
 }
 
 CellState CounterMap::at(const Voxel& cell) const {
@@ -50,7 +64,7 @@ std::vector<std::uint32_t> CounterMap::take_changed() {
   return std::exchange(changed_, {});
 }
 
-CounterBlock& CounterMap::changed_block(const Voxel& position) {
+CounterBlock& CounterMap::counters_at(const Voxel& position) {
   const std::uint32_t number = positions_.number(position);
   if (number == chunks_.size() * kChunk)
     chunks_.push_back(std::make_unique<CounterBlock[]>(kChunk));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "voxlist/voxels/counters/counter_block.h"
@@ -22,13 +23,15 @@ class CounterMap {
  public:
   explicit CounterMap(double resolution_m, const CounterRule& rule = {});
 
-  /// Counts a scan. Precondition: the same resolution.
-  void add(const RayScratch& scan);
+  /// Counts a scan; where blocks are given, only in those. Precondition: the same resolution.
+  void add(const RayScratch& scan, const Numbering<Voxel>* only = nullptr);
 
-  /// Replaces the counters of a block.
-  void set_block(const Voxel& position, const CounterBlock& block);
+  /// The counters of a block, to be changed.
+  CounterBlock& counters_at(const Voxel& position);
 
-  /// Sets the blocks at these positions back to what they were before any scan.
+  /// Sets the blocks at these positions back to what they were before any scan. Counters cannot be
+  /// subtracted: they stop at both ends of their range. So a scan is taken out, or moved, by
+  /// forgetting the blocks that it touches, and counting all scans in their order again in these.
   void forget(const std::vector<Voxel>& blocks);
 
   CellState at(const Voxel& cell) const;
@@ -61,7 +64,16 @@ class CounterMap {
   // Blocks are made so many at a time: growing moves nothing, and leaves little unused.
   static constexpr std::size_t kChunk = 64;
 
-  CounterBlock& changed_block(const Voxel& position);
+  // Blocks that are found before the first of them is changed.
+  static constexpr std::size_t kAtOnce = 32;
+
+  struct Update {
+    CounterBlock* block = nullptr;
+    const std::uint64_t *passed = nullptr, *hit = nullptr;
+  };
+
+  static CounterBlock* fetched(CounterBlock& block);
+  void count(std::span<const Update> updates) const;
 
   double resolution_m_;
   CounterRule rule_;

@@ -4,6 +4,10 @@
 
 namespace voxlist {
 
+std::size_t take_points_avx2(PointJob& job);
+std::size_t take_points_avx512(PointJob& job);
+std::size_t mark_ends_avx2(const EndJob& job);
+std::size_t mark_ends_avx512(const EndJob& job);
 void mark_rays_avx2(const RayJob& job);
 void mark_rays_avx512(const RayJob& job);
 
@@ -106,6 +110,16 @@ void mark_ray(const FixedRay& ray, const RayJob& job) {
 }
 
 }  // namespace
+
+std::size_t take_points(PointJob& job, Instructions instructions) {
+  if (instructions == Instructions::kAvx512) return take_points_avx512(job);
+  return instructions == Instructions::kAvx2 ? take_points_avx2(job) : take_points(job);
+}
+
+std::size_t mark_ends(const EndJob& job, Instructions instructions) {
+  if (instructions == Instructions::kAvx512) return mark_ends_avx512(job);
+  return instructions == Instructions::kAvx2 ? mark_ends_avx2(job) : mark_ends(job);
+}
 
 void mark_rays(const RayJob& job, Instructions instructions) {
   switch (instructions) {

@@ -20,23 +20,8 @@ void share_bits(int bits[3]) {
 
 }  // namespace
 
-RayBox RayBox::about(const std::vector<FixedRay>& rays) {
-  RayBox box;
-  if (rays.empty()) return box;
-  std::int32_t lowest[3], highest[3];
-  for (int i = 0; i < 3; ++i) lowest[i] = highest[i] = rays[0].from[i];
-  for (const FixedRay& ray : rays) {
-    for (int i = 0; i < 3; ++i) {
-      lowest[i] = std::min({lowest[i], ray.from[i], ray.to[i]});
-      highest[i] = std::max({highest[i], ray.from[i], ray.to[i]});
-    }
-  }
-  box.lay(lowest, highest, rays[0].from);
-  return box;
-}
-
-void RayBox::lay(const std::int32_t lowest[3], const std::int32_t highest[3],
-                 const std::int32_t start[3]) {
+RayBox::RayBox(const std::int32_t lowest[3], const std::int32_t highest[3],
+               const std::int32_t start[3]) {
   for (int i = 0; i < 3; ++i)
     bits_[i] =
         std::bit_width(static_cast<std::uint32_t>(block_of(highest[i]) - block_of(lowest[i])));
@@ -57,13 +42,6 @@ bool RayBox::holds(const std::int32_t end[3]) const {
     if (cell < 0 || cell >= kBlockEdge << bits_[i]) return false;
   }
   return true;
-}
-
-void RayBox::move_inside(FixedRay& ray) const {
-  for (int i = 0; i < 3; ++i) {
-    ray.from[i] -= corner_[i] << kFractionBits;
-    ray.to[i] -= corner_[i] << kFractionBits;
-  }
 }
 
 double RayBox::cut(FixedRay& ray) const {

@@ -25,7 +25,6 @@ struct RayJob {
   const FixedRay* rays;
   std::size_t size;
   int block_shift[3];
-  std::uint64_t spare_word;  ///< one whose bits nobody wants to know
   CellBits* cells;
 };
 

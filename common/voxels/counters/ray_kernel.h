@@ -4,25 +4,24 @@
 // the portable code. All numbers in doubles are integers below 2^53, or are rounded to one with a
 // margin that no rounding reaches, so every width gives the same cells.
 
-#include <bit>
 #include <cstdint>
 #include <cstring>
 #include <utility>
 
-#include "voxlist/voxels/counters/ray_job.h"
+#include "voxlist/voxels/counters/mark_buffer.h"
+#include "voxlist/voxels/counters/ray_setup.h"
 
 namespace voxlist {
 namespace {
 
-/// One axis across the ray: what is the same for all slabs, and the counts of the lanes' slabs.
-template <class Doubles, class Integers, std::size_t kLanes>
+/// One axis across a ray: what is the same for all slabs, and the state of the lanes' slabs.
+template <class Doubles, class Integers>
 struct CrossAxis {
-  int key_shift, block_shift;
-  double step, to_nearest;
+  int number, block_shift;
+  double step, to_nearest, last;
   Doubles face;         // numerators of the places where the lanes' slabs end
-  Integers key_before;  // of the slabs of before
-  Doubles cell_before;
-  std::int64_t last;  // cell
+  Doubles cell_before;  // of the slabs of before
+  Integers key_before;
 };
 
 template <std::size_t kFirst, class Vector, std::size_t... kIndices>
@@ -41,57 +40,63 @@ class RayMarker {
   static constexpr std::size_t kLanes = sizeof(Doubles) / sizeof(double);
   // 1.5 times 2^52: adding it rounds to an integer, which then stands in the lowest bits.
   static constexpr double kRounding = 6755399441055744.0;
-  static constexpr std::int64_t kRoundingBits = std::int64_t{0x4338} << 48;
+  static constexpr std::int64_t kCellMask = (std::int64_t{1} << kBoxBits) - 1;
   static constexpr Integers kNoWord = Integers{} - 1;
   static constexpr double kLaneNumbers[8] = {0, 1, 2, 3, 4, 5, 6, 7};
 
  public:
-  explicit RayMarker(const RayJob& job) : job_(job) {
+  explicit RayMarker(const RayJob& job) : job_(job), marks_(*job.cells) {
     std::memcpy(&lane_, kLaneNumbers, sizeof lane_);
     for (std::size_t i = 0; i < kLanes; ++i) lane_number_[i] = static_cast<std::int64_t>(i);
-    spare_ = lane_number_ + static_cast<std::int64_t>(job.spare_word);
   }
 
-  void mark(const FixedRay& ray) {
-    const Slabs slabs = slabs_of(ray);
-    if (slabs.length == 0) return mark_one(slabs);
-    const auto length = static_cast<double>(slabs.length);
-    inverse_ = 1.0 / length;
-    length_ = length;
-    Axis v = axis(slabs, slabs.v, slabs.v_face, slabs.v_step);
-    Axis w = axis(slabs, slabs.w, slabs.w_face, slabs.w_step);
-    // Times of crossings, times the same positive number.
-    v_time_ = slabs.v_step < 0 ? -magnitude_of(w.step) : magnitude_of(w.step);
-    w_time_ = slabs.w_step < 0 ? -magnitude_of(v.step) : magnitude_of(v.step);
-    Integers u = lane_number_ + std::int64_t{slabs.first[slabs.u]};
-    for (std::int32_t left = slabs.size; left > 0; left -= static_cast<std::int32_t>(kLanes)) {
-      mark_slabs(key_part(u, slabs.u, job_.block_shift[slabs.u]), v, w, left);
-      u += static_cast<std::int64_t>(kLanes);
+  void mark_all() {
+    for (std::size_t i = 0; i < job_.size; i += RayEnds::kMost) {
+      const std::size_t size = job_.size - i < RayEnds::kMost ? job_.size - i : RayEnds::kMost;
+      const RayEnds ends(job_.rays + i, size);
+      for (std::size_t k = 0; k < size; k += kLanes) {
+        SlabsOfLanes<kLanes> slabs;
+        RaySetup<Doubles, Integers>(ends, k).put(slabs);
+        for (std::size_t lane = 0; lane < kLanes && k + lane < size; ++lane) mark_ray(slabs, lane);
+      }
     }
   }
 
  private:
-  using Axis = CrossAxis<Doubles, Integers, kLanes>;
+  using Axis = CrossAxis<Doubles, Integers>;
 
-  static double magnitude_of(double value) { return value < 0 ? -value : value; }
-
-  void mark_one(const Slabs& slabs) {
-    std::int64_t key = 0;
-    for (int i = 0; i < 3; ++i)
-      key |= key_part(std::int64_t{slabs.first[i]}, i, job_.block_shift[i]);
-    word_at(*job_.cells, static_cast<std::uint64_t>(key) >> 6) |= std::uint64_t{1} << (key & 63);
+  void mark_ray(const SlabsOfLanes<kLanes>& s, std::size_t i) {
+    length_ = s.length[i];
+    inverse_ = s.inverse[i];
+    v_time_ = s.v_time[i];
+    w_time_ = s.w_time[i];
+    const int u_axis = static_cast<int>(s.u[i]);
+    Axis v = axis(u_axis == 0 ? 1 : 0, s.v_step[i], s.v_face[i], s.v_first[i], s.v_last[i]);
+    Axis w = axis(u_axis == 2 ? 1 : 2, s.w_step[i], s.w_face[i], s.w_first[i], s.w_last[i]);
+    Integers u = lane_number_ + static_cast<std::int64_t>(s.u_first[i]);
+    Integers u_key = key_part(u, u_axis, job_.block_shift[u_axis]);
+    for (auto left = static_cast<std::int32_t>(s.size[i]); left > 0;
+         left -= static_cast<std::int32_t>(kLanes)) {
+      mark_slabs(u_key, v, w, left);
+      if constexpr (kLanes == 8) {  // a block farther
+        u_key += std::int64_t{1} << job_.block_shift[u_axis];
+      } else {
+        u += static_cast<std::int64_t>(kLanes);
+        u_key = key_part(u, u_axis, job_.block_shift[u_axis]);
+      }
+    }
   }
 
-  Axis axis(const Slabs& slabs, int number, std::int64_t face, std::int64_t step) const {
+  Axis axis(int number, double step, double face, double first, double last) const {
     Axis a;
-    a.key_shift = number;
+    a.number = number;
     a.block_shift = job_.block_shift[number];
-    a.step = static_cast<double>(step);
+    a.step = step;
     a.to_nearest = 0.5 - 0.5 * length_;
-    a.face = lane_ * a.step + static_cast<double>(face);
-    a.cell_before = Doubles{} + static_cast<double>(slabs.first[number]);
-    a.key_before = Integers{} + key_part(std::int64_t{slabs.first[number]}, number, a.block_shift);
-    a.last = slabs.last[number];
+    a.last = last;
+    a.face = lane_ * step + face;
+    a.cell_before = Doubles{} + first;
+    a.key_before = Integers{} + key_part(static_cast<std::int64_t>(first), number, a.block_shift);
     return a;
   }
 
@@ -103,13 +108,13 @@ class RayMarker {
   // Where each slab is entered and left along an axis, and when the face between is crossed.
   Crossing cross(Axis& a, const Integers& is_last) const {
     const Doubles rounded = (a.face + a.to_nearest) * inverse_ + kRounding;
-    Integers cell;
-    std::memcpy(&cell, &rounded, sizeof cell);
-    cell = is_last ? Integers{} + a.last : cell - kRoundingBits;
-    const Doubles out = is_last ? Doubles{} + static_cast<double>(a.last) : rounded - kRounding;
+    const Doubles out = is_last ? Doubles{} + a.last : rounded - kRounding;
     const Doubles in = part<kLanes - 1>(a.cell_before, out);
+    const Doubles in_lowest_bits = out + kRounding;
+    Integers cell;
+    std::memcpy(&cell, &in_lowest_bits, sizeof cell);
     Crossing c;
-    c.key_out = key_part(cell, a.key_shift, a.block_shift);
+    c.key_out = key_part(cell & kCellMask, a.number, a.block_shift);
     c.key_in = part<kLanes - 1>(a.key_before, c.key_out);
     c.time = (in > out ? in : out) * length_ - (a.face - a.step);
     a.cell_before = out;
@@ -129,58 +134,39 @@ class RayMarker {
   // Marks the cell that each slab is entered in, the one that it is left from, and one between.
   void put(const Integers& in, const Integers& corner, const Integers& out, std::int32_t left) {
     const Integers one = Integers{} + 1;
-    const Integers in_word = lane_number_ < std::int64_t{left} ? in >> 6 : kNoWord;
+    const Integers is_there = lane_number_ < std::int64_t{left};
+    const Integers in_word = is_there ? in >> 6 : kNoWord;
     const Integers corner_word = corner >> 6, out_word = out >> 6;
     const Integers corner_bit = one << (corner & 63), out_bit = one << (out & 63);
     const Integers in_bits = one << (in & 63) | (corner_bit & (corner_word == in_word)) |
                              (out_bit & (out_word == in_word));
-    const Integers out_bits = out_bit | (corner_bit & (corner_word == out_word));
-    const auto lanes = static_cast<std::size_t>(left) < kLanes ? static_cast<std::size_t>(left) : kLanes;
-    put_runs(in_word, in_bits, lanes);
-    put_words(out_word == in_word ? spare_ : out_word, out_bits, lanes);
-    put_apart(corner, (corner_word != in_word) & (corner_word != out_word), lanes);
+    put_runs(in_word, in_bits);
+    marks_.add(is_there & (out_word != in_word), out_word,
+               out_bit | (corner_bit & (corner_word == out_word)));
+    const Integers is_apart = is_there & (corner_word != in_word) & (corner_word != out_word);
+    if (MarkBuffer::has_any(is_apart)) marks_.add(is_apart, corner_word, corner_bit);
   }
 
   // Lanes side by side in one word are four at most. The last of them puts the bits of all: to mark
   // one word again and again would wait each time for the time before.
-  void put_runs(const Integers& word, Integers bits, std::size_t lanes) {
+  void put_runs(const Integers& word, Integers bits) {
     const Integers none{};
     bits |= part<kLanes - 1>(kNoWord, word) == word ? part<kLanes - 1>(none, bits) : none;
     bits |= part<kLanes - 2>(kNoWord, word) == word ? part<kLanes - 2>(none, bits) : none;
-    put_words(part<1>(word, kNoWord) == word ? spare_ : word, bits, lanes);
-  }
-
-  void put_words(const Integers& word, const Integers& bits, std::size_t lanes) {
-    alignas(64) std::uint64_t words[kLanes], marks[kLanes];
-    std::memcpy(words, &word, sizeof word);
-    std::memcpy(marks, &bits, sizeof bits);
-    for (std::size_t i = 0; i < lanes; ++i) word_at(*job_.cells, words[i]) |= marks[i];
-  }
-
-  // Rare: the cell between lies in a word of its own.
-  void put_apart(const Integers& corner, const Integers& is_apart, std::size_t lanes) {
-    alignas(64) std::int64_t apart[kLanes];
-    std::memcpy(apart, &is_apart, sizeof is_apart);
-    std::int64_t any = 0;
-    for (std::size_t i = 0; i < kLanes; ++i) any |= apart[i];
-    if (any == 0) return;
-    for (std::size_t i = 0; i < lanes; ++i) {
-      const auto key = static_cast<std::uint64_t>(corner[i]);
-      if (apart[i] != 0) word_at(*job_.cells, key >> 6) |= std::uint64_t{1} << (key & 63);
-    }
+    marks_.add(part<1>(word, kNoWord) != word, word, bits);
   }
 
   const RayJob& job_;
+  MarkBuffer marks_;
   Doubles lane_;
-  Integers lane_number_, spare_;
+  Integers lane_number_;
   double length_ = 0.0, inverse_ = 0.0;
   double v_time_ = 0.0, w_time_ = 0.0;
 };
 
 template <class Doubles, class Integers>
 void mark_rays_wide(const RayJob& job) {
-  RayMarker<Doubles, Integers> marker(job);
-  for (std::size_t i = 0; i < job.size; ++i) marker.mark(job.rays[i]);
+  RayMarker<Doubles, Integers>(job).mark_all();
 }
 
 }  // namespace

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "voxlist/geometry/range.h"
-
 namespace voxlist {
 namespace {
 
@@ -14,17 +12,6 @@ constexpr std::size_t kRaysAtOnce = 256;
 
 // How often the reach is halved in the search for the farthest that fits.
 constexpr int kReachSteps = 7;
-
-// A point in fractions of a cell from (-kReach, -kReach, -kReach) on; false where it is outside.
-bool to_fractions(const Eigen::Vector3d& p, double per_m, std::int32_t out[3]) {
-  constexpr double kOne = std::int64_t{1} << kFractionBits;
-  for (int i = 0; i < 3; ++i) {
-    const double cells = p[i] * per_m + kReach;
-    if (!(cells >= 0.0 && cells < 2.0 * kReach)) return false;
-    out[i] = static_cast<std::int32_t>(cells * kOne);
-  }
-  return true;
-}
 
 Voxel cell_of(const std::int32_t end[3]) {
   return {(end[0] >> kFractionBits) - kReach, (end[1] >> kFractionBits) - kReach,
@@ -42,7 +29,6 @@ RayScratch::RayScratch(const RayRules& rules, Instructions instructions)
 bool RayScratch::mark(const Pose3& T_map_base, const Cloud& cloud_base, const Stopped& stopped) {
   reach_m_ = std::numeric_limits<double>::infinity();
   collect(T_map_base, cloud_base);
-  box_ = RayBox::about(rays_);
   far_hits_.clear();
   std::vector<FixedRay> without_end;
   if (!box_.is_about_all()) without_end = cut_to_box();
@@ -51,17 +37,25 @@ bool RayScratch::mark(const Pose3& T_map_base, const Cloud& cloud_base, const St
   return follow(stopped);
 }
 
+// Takes the points that count, and lays the box about them.
 void RayScratch::collect(const Pose3& T_map_base, const Cloud& cloud_base) {
-  const double per_m = 1.0 / rules_.resolution_m;
-  rays_.clear();
-  rays_.reserve(cloud_base.points.size());
-  for (std::size_t i = 0; i < cloud_base.points.size(); ++i) {
-    if (!is_within(cloud_base, i, rules_.min_range_m, rules_.max_range_m)) continue;
-    FixedRay ray;
-    if (to_fractions(T_map_base * cloud_base.origin(i).cast<double>(), per_m, ray.from) &&
-        to_fractions(T_map_base * cloud_base.points[i].cast<double>(), per_m, ray.to))
-      rays_.push_back(ray);
+  constexpr std::int32_t kHighest = std::numeric_limits<std::int32_t>::max();
+  const std::size_t size = cloud_base.points.size();
+  rays_.resize(size);
+  PointJob job{};
+  job.points = size == 0 ? nullptr : cloud_base.points[0].data();
+  job.origins = cloud_base.origins.empty() ? nullptr : cloud_base.origins[0].data();
+  job.size = size;
+  for (int i = 0; i < 3; ++i) {
+    for (int k = 0; k < 4; ++k) job.matrix[i][k] = T_map_base(i, k) / rules_.resolution_m;
+    job.matrix[i][3] += kReach;
+    job.lowest[i] = kHighest;
   }
+  job.min_range_m = static_cast<float>(rules_.min_range_m);
+  job.max_range_m = static_cast<float>(rules_.max_range_m);
+  job.rays = rays_.data();
+  rays_.resize(take_points(job, instructions_));
+  box_ = rays_.empty() ? RayBox() : RayBox(job.lowest, job.highest, rays_[0].from);
 }
 
 // Rays that start outside of the box are not followed, those that end outside are cut.
@@ -86,7 +80,12 @@ std::vector<FixedRay> RayScratch::cut_to_box() {
   }
   rays_ = std::move(inside);
   keep_far_hits(std::move(far));
-  for (FixedRay& ray : cut) box_.move_inside(ray);
+  for (FixedRay& ray : cut) {
+    for (int i = 0; i < 3; ++i) {
+      ray.from[i] -= box_.corner(i);
+      ray.to[i] -= box_.corner(i);
+    }
+  }
   return cut;
 }
 
@@ -110,18 +109,16 @@ bool RayScratch::starts_in_one_cell() const {
 
 // Marks the ends of rays, and moves these into the box.
 void RayScratch::mark_hits() {
-  const bool first_alone = !rules_.every_ray && starts_in_one_cell();
   hit_.begin(box_.block_bits(), rays_.size());
-  std::size_t kept = 0;
-  for (FixedRay ray : rays_) {
-    box_.move_inside(ray);
-    const std::uint64_t key = box_.key_at(ray.to), bit = std::uint64_t{1} << (key & 63);
-    std::uint64_t& word = word_at(hit_.bits(), key >> 6);
-    const bool is_new = (word & bit) == 0;
-    word |= bit;
-    if (is_new || !first_alone) rays_[kept++] = ray;
-  }
-  rays_.resize(kept);
+  const int* shift = box_.block_shift();
+  const bool first_alone = !rules_.every_ray && starts_in_one_cell();
+  rays_.resize(mark_ends({rays_.data(),
+                          rays_.size(),
+                          {box_.corner(0), box_.corner(1), box_.corner(2)},
+                          {shift[0], shift[1], shift[2]},
+                          first_alone,
+                          &hit_.bits()},
+                         instructions_));
 }
 
 bool RayScratch::follow(const Stopped& stopped) {
@@ -157,8 +154,7 @@ bool RayScratch::follow_to(double length, const Stopped& stopped) {
       from = rays.data();
     }
     const int* shift = box_.block_shift();
-    const std::uint64_t spare = std::uint64_t{kWordsInBlock} << box_.block_bits();
-    mark_rays({from, size, {shift[0], shift[1], shift[2]}, spare, &passed_.bits()}, instructions_);
+    mark_rays({from, size, {shift[0], shift[1], shift[2]}, &passed_.bits()}, instructions_);
     first += size;
   }
   return true;

@@ -43,10 +43,11 @@ class RayScratch {
   bool mark(const Pose3& T_map_base, const Cloud& cloud_base, const Stopped& stopped = {});
 
   /// Calls visit(block position, passed, hit) for each block with cells, always in the same order:
-  /// eight words each, cells in Morton order. A cell that is hit may be passed as well.
+  /// eight words each, in the order of keys. A cell that is hit may be passed as well. What is
+  /// handed out is there until the next mark().
   template <class Visit>
   void for_each_block(const Visit& visit) const {
-    constexpr BlockBits kNone{};
+    static constexpr BlockBits kNone{};
     const CellStore::Block none(kNone);
     for (std::uint32_t i = kFirstPlace; i < passed_.end(); ++i) {
       const std::uint32_t hit = hit_.find(passed_.block(i));

@@ -82,7 +82,7 @@ class SlowMap {
   static void put(const Eigen::Vector3d& p, std::int32_t out[3]) {
     for (int i = 0; i < 3; ++i)
       out[i] = static_cast<std::int32_t>(
-          std::floor((p[i] * (1.0 / kResolution_m) + kReach) * (1 << kFractionBits)));
+          std::floor((p[i] / kResolution_m + kReach) * (1 << kFractionBits)));
   }
 
   std::map<Voxel, int> counts_;

@@ -17,7 +17,6 @@ namespace {
 constexpr std::uint32_t kSeed = 20'260'514;
 constexpr int kEdgeBits = kBoxBits - 3;  // blocks along the box
 constexpr int kShift = kBlockKeyBits;
-constexpr std::uint64_t kSpareWord = kWordsInBlock << 3 * kEdgeBits;
 
 std::vector<Instructions> instructions_here() {
   std::vector<Instructions> all{Instructions::kPortable};
@@ -30,7 +29,6 @@ RayJob job_of(const std::vector<FixedRay>& rays, CellStore& store) {
   return {rays.data(),
           rays.size(),
           {kShift, kShift + kEdgeBits, kShift + 2 * kEdgeBits},
-          kSpareWord,
           &store.bits()};
 }
 
