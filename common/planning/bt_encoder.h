@@ -1,61 +1,45 @@
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
 #include <string>
-#include <unordered_map>
 
-namespace octomap {
-class OcTree;
-class OcTreeKey;
-class OcTreeNode;
-}  // namespace octomap
+#include "voxlist/planning/octree_tiles.h"
 
 namespace voxlist::planning {
 
-/// Makes the bytes of .bt files of one growing octree: every voxel free or occupied, pruned, as
-/// OctoMap's writeBinary does (which works on a copy of the whole tree). It keeps the bytes of
-/// tiles of 16 x 16 x 16 voxels, so that a tree costs what has changed since it was encoded last.
+/// The bytes of a .bt file of counters: every cell free or occupied, pruned, the same as OctoMap's
+/// writeBinary makes of the same cells. Tiles that have not changed since they were encoded last
+/// are copied.
 class BtEncoder {
  public:
-  /// A voxel has become free or occupied.
-  void forget(const octomap::OcTreeKey& voxel);
+  BtEncoder(const CounterMap& map, OctreeTiles& tiles) : map_(map), tiles_(tiles.tiles()) {}
 
-  /// The file of the tree, of which all such voxels were told.
-  std::string encode(const octomap::OcTree& octree);
+  /// The file of the whole map.
+  std::string file();
+
+  /// Nodes of the tree that the file holds.
+  std::size_t nodes();
 
  private:
+  using Part = OctreeTiles::Part;
+  using Tile = OctreeTiles::Tile;
+  using Iterator = OctreeTiles::Tiles::iterator;
+
   // What a node is in the file: two bits.
   enum State : unsigned { kUnknown = 0, kFree = 1, kOccupied = 2, kMixed = 3 };
 
-  // Bytes and nodes that a node and all below it make. One that is free or occupied as a whole
-  // makes no bytes.
-  struct Part {
-    std::string bytes;
-    std::size_t nodes = 0;
-  };
+  Part tree();
+  State append(unsigned level, Iterator begin, Iterator end, Part& part);
+  State append_tile(Tile& tile, Part& part);
+  State append_blocks(const Tile& tile, unsigned level, std::size_t begin, std::size_t end,
+                      Part& part) const;
+  State append_block(std::size_t number, Part& part) const;
+  static State append_word(std::uint64_t known, std::uint64_t occupied, Part& part);
+  static State append_eight(std::uint64_t known, std::uint64_t occupied, Part& part);
+  template <class Child>
+  static State append_children(const Child& child, Part& part);
 
-  struct Tile {
-    Part part;
-    State state;
-  };
-
-  // Where a node lies, in its own edges.
-  struct Place {
-    unsigned level = 0;
-    std::uint64_t x = 0, y = 0, z = 0;
-
-    Place child(unsigned i) const {
-      return {level + 1, 2 * x + (i & 1), 2 * y + (i >> 1 & 1), 2 * z + (i >> 2 & 1)};
-    }
-  };
-
-  State append(const octomap::OcTreeNode& node, const Place& place, Part& part);
-  State append_tile(const octomap::OcTreeNode& node, const Place& place, Part& part);
-  State append_children(const octomap::OcTreeNode& node, const Place& place, Part& part);
-
-  const octomap::OcTree* octree_ = nullptr;  // while it is encoded
-  std::unordered_map<std::uint64_t, Tile> tiles_;
+  const CounterMap& map_;
+  OctreeTiles::Tiles& tiles_;
 };
 
 }  // namespace voxlist::planning

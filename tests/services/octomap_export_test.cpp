@@ -363,8 +363,8 @@ TEST_F(OctomapExport, SaysThatItShortensRays) {
   start();
   bus::PosedCloud far;
   far.map_id = 7;
-  for (int i = 0; i < 3000; ++i) {
-    const float a = 0.1F * float(i), b = 0.001F * float(i - 1500);
+  for (int i = 0; i < 30'000; ++i) {
+    const float a = 0.1F * float(i), b = 0.0001F * float(i - 15'000);
     far.cloud.points.emplace_back(99.F * std::cos(a) * std::cos(b),
                                   99.F * std::sin(a) * std::cos(b), 99.F * std::sin(b) * 0.9F);
   }

@@ -96,7 +96,8 @@ int extend(const ExtendOptions& options, Console& console) {
   const std::size_t keyframes = run.builder().poses().size();
   files.write_views(voxels, trajectory);
   tell(options, run, figures, keyframes - before.poses.size(), console);
-  files.write_octomap(settings.octomap, !options.making.no_octomap, console);
+  files.write_octomap(settings.octomap, settings.localiser.threads, !options.making.no_octomap,
+                      console);
   Summary summary = extended(read_summary(options.folder).value_or(Summary()), figures);
   describe(voxels, keyframes, summary);
   files.write_summary(std::move(summary));

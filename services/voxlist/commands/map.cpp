@@ -123,7 +123,8 @@ int map(const MapOptions& options, Console& console) {
   files.write_keyframes(spool, run.keyframes(), voxels);
   tell(options, run, figures, console);
   if (figures.interrupted) console.warn("interrupted: the map ends there");
-  files.write_octomap(settings.octomap, !options.making.no_octomap, console);
+  files.write_octomap(settings.octomap, settings.localiser.threads, !options.making.no_octomap,
+                      console);
   Summary summary = summary_of(figures);
   describe(voxels, run.builder().poses().size(), summary);
   files.write_summary(std::move(summary));

@@ -45,7 +45,8 @@ int rebuild(const RebuildOptions& options, Console& console) {
   MapFiles files(options.folder);
   files.write_views(voxels, trajectory);
   tell(options, map, trajectory.size(), console);
-  files.write_octomap(settings.octomap, !options.making.no_octomap, console);
+  files.write_octomap(settings.octomap, settings.localiser.threads, !options.making.no_octomap,
+                      console);
   Summary summary = read_summary(options.folder).value_or(summary_of(map));
   describe(voxels, map.poses.size(), summary);
   files.write_summary(std::move(summary));

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <optional>
 #include <utility>
 
 #include "services/voxlist/output/progress.h"
@@ -71,23 +72,24 @@ void MapFiles::write_views(const VoxelMap& map, const std::vector<StampedPose3>&
   mapping::write_map_views(folder_, map, trajectory);
 }
 
-void MapFiles::write_octomap(const planning::OctomapConfig& config, bool wanted,
+void MapFiles::write_octomap(const planning::OctomapConfig& config, int threads, bool wanted,
                              Console& console) const {
   if (!wanted) return remove_octomap();
   mapping::KeyframeReader keyframes(folder_ / mapping::kKeyframeFile);
   planning::OctomapBuilder octomap(config);
   Progress progress(console, "making the OctoMap");
   int beyond = 0;
-  while (!stop_requested()) {
-    const auto keyframe = keyframes.next();
-    if (!keyframe) break;
+  const auto next = [&]() -> std::optional<planning::PosedCloud> {
+    auto keyframe = keyframes.next();
+    if (!keyframe) return std::nullopt;
     beyond += is_beyond(*keyframe, config);
-    octomap.insert(keyframe->T_map_base, keyframe->cloud, stop_requested);
     progress.show(keyframes.progress());
-  }
+    return planning::PosedCloud{keyframe->T_map_base, std::move(keyframe->cloud)};
+  };
+  const bool whole = octomap.insert_all(next, threads, stop_requested);
   tell_what_lies_beyond(beyond, config, console);
   tell_if_shortened(octomap.reach_m(), console);
-  if (!stop_requested()) return octomap.write_bt(folder_ / "map.bt");
+  if (whole && !stop_requested()) return octomap.write_bt(folder_ / "map.bt");
   remove_octomap();
   console.warn("interrupted: there is no map.bt");
 }

@@ -28,8 +28,9 @@ class MapFiles {
   void write_views(const VoxelMap& map, const std::vector<StampedPose3>& trajectory) const;
 
   /// Writes the OctoMap of the folder's keyframes, or takes the old one away where none is wanted
-  /// or after Ctrl-C.
-  void write_octomap(const planning::OctomapConfig& config, bool wanted, Console& console) const;
+  /// or after Ctrl-C. So many threads mark rays at most; 0: as many as there are processors.
+  void write_octomap(const planning::OctomapConfig& config, int threads, bool wanted,
+                     Console& console) const;
 
   /// Writes the summary: the folder is whole.
   void write_summary(Summary summary);
