@@ -1,8 +1,10 @@
 // Free and occupied space by OctoMap's own insertPointCloud and by counters, on the same scans in
 // one run on one thread: how long each takes a scan, and how far they agree.
-// Arguments: SCANS_DIR POSES RESOLUTION_M [--csv FILE], or none for a simulated floor.
+// Arguments: SCANS_DIR POSES RESOLUTION_M [--csv FILE]; or for a simulated floor how many scans
+// (12).
 #include <octomap/OcTree.h>
 
+#include <bit>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -23,7 +25,7 @@ namespace voxlist::bench {
 namespace {
 
 constexpr double kSphereRange_m = 8.0, kAnyRange_m = 100.0;
-constexpr int kSpheres = 12;
+constexpr std::uint64_t kSpheres = 12;
 constexpr int kSeed = 14;
 
 struct Scan {
@@ -56,13 +58,13 @@ std::vector<Scan> recorded(const std::filesystem::path& folder, const std::strin
   return all;
 }
 
-std::vector<Scan> simulated() {
+std::vector<Scan> simulated(std::uint64_t spheres) {
   const TestFloorConfig config = floor_16_13(kSeed);
   const TestFloor floor{config.name, config,      simulation::make_floor(config.wing, config.wings),
                         {0.0, -6.0}, {15.0, 6.0}, {}};
   simulation::Random random(kSeed);
   std::vector<Scan> all;
-  for (std::uint64_t i = 0; i < kSpheres; ++i) {
+  for (std::uint64_t i = 0; i < spheres; ++i) {
     const Pose2 pose = free_pose(floor, random);
     all.push_back(from_one_place(
         {to_pose3(pose), sphere_scan_at(floor.building, pose, 64'000, 0, i)}, kSphereRange_m));
@@ -107,24 +109,20 @@ RayRules rules(double resolution_m, bool every_ray) {
   return rules;
 }
 
-class Ours {
- public:
+struct Ours {
   Ours(double resolution_m, bool every_ray)
-      : scratch_(rules(resolution_m, every_ray)), map(resolution_m) {}
+      : scratch(rules(resolution_m, every_ray)), map(resolution_m) {}
 
   void add(const Scan& scan) {
     const double start_ms = cpu_ms();
-    scratch_.mark(scan.T_map_base, scan.cloud);
+    scratch.mark(scan.T_map_base, scan.cloud);
     marking_ms += cpu_ms() - start_ms;
-    map.add(scratch_);
+    map.add(scratch);
     map.take_changed();
     ms += cpu_ms() - start_ms;
   }
 
- private:
-  RayScratch scratch_;
-
- public:
+  RayScratch scratch;
   CounterMap map;
   double ms = 0.0, marking_ms = 0.0;
 };
@@ -167,11 +165,11 @@ void append(const std::string& file, const Row& row) {
 Row compare(const std::vector<Scan>& scans, double resolution_m) {
   OctomapsOwn octomap(resolution_m);
   Ours every(resolution_m, true), one(resolution_m, false);
-  for (const Scan& scan : scans) {
-    octomap.add(scan);
-    every.add(scan);
-    one.add(scan);
-  }
+  // OctoMap last: it leaves millions of small pieces of freed memory, which whoever asks for memory
+  // next has to put together.
+  for (const Scan& scan : scans) every.add(scan);
+  for (const Scan& scan : scans) one.add(scan);
+  for (const Scan& scan : scans) octomap.add(scan);
   const auto count = static_cast<double>(scans.size());
   octomap::OcTree& tree = octomap.finished();
   const Row row{resolution_m, octomap.ms / count, every.ms / count, one.ms / count,
@@ -188,11 +186,22 @@ Row compare(const std::vector<Scan>& scans, double resolution_m) {
   return row;
 }
 
+// Options of other programs are passed over.
+std::vector<std::string> arguments_of(int argc, char** argv) {
+  std::vector<std::string> arguments(argv + 1, argv + argc);
+  std::erase_if(arguments, [](const std::string& a) { return a.starts_with("--"); });
+  return arguments;
+}
+
 int run(int argc, char** argv) {
   const auto csv = take_csv_option(argc, argv);
+  const std::vector<std::string> arguments = arguments_of(argc, argv);
+  const bool has_scans = arguments.size() == 3;
+  const std::uint64_t spheres = arguments.size() == 1 ? std::stoull(arguments[0]) : kSpheres;
   std::vector<double> resolutions_m{0.1, 0.05};
-  if (argc == 4) resolutions_m = {std::stod(argv[3])};
-  const std::vector<Scan> scans = argc == 4 ? recorded(argv[1], argv[2]) : simulated();
+  if (has_scans) resolutions_m = {std::stod(arguments[2])};
+  const std::vector<Scan> scans =
+      has_scans ? recorded(arguments[0], arguments[1]) : simulated(spheres);
   if (scans.empty()) throw std::runtime_error("no scan has a pose");
   for (const double resolution_m : resolutions_m) {
     const Row row = compare(scans, resolution_m);
