@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-#include "voxlist/voxels/counters/block_cells.h"
+#include "voxlist/voxels/counters/cell_store.h"
 #include "voxlist/voxels/counters/counter_rule.h"
 
 namespace voxlist {

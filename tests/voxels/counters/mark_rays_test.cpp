@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "tests/voxels/counters/exact_walk.h"
-#include "voxlist/voxels/counters/block_cells.h"
 #include "voxlist/voxels/counters/cell_store.h"
 #include "voxlist/voxels/voxel_ray.h"
 
