@@ -34,6 +34,9 @@ end_well() {
   return $code
 }
 
+# Settings of a localiser in slower programs: no cloud is dropped, and each waits for the mapper's word on the one before.
+patience() { ((slower == 1)) || printf '[localiser]\nmap_wait_s = 10.0\nmax_waiting_clouds = 100\n'; }
+
 still_run() {
   local name
   for name in "$@"; do kill -0 "${pids[$name]}" || return 1; done
