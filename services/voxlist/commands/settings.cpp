@@ -52,7 +52,7 @@ void MakingOptions::add_to(CLI::App& command) {
       .add_option("--octomap-resolution", octomap_resolution_m,
                   "edge of map.bt's voxels in metres; default 0.1")
       ->check(CLI::Range(0.01, 10.0));
-  command.add_flag("--no-octomap", no_octomap, "make no map.bt, which is the slow part");
+  command.add_flag("--no-octomap", no_octomap, "make no map.bt");
   command.add_option("--threads", threads, "most threads; the map does not depend on it")
       ->check(CLI::Range(1, 1024));
 }
