@@ -61,7 +61,7 @@ TEST(SparseDrive, FollowsOdometryAlongABareCorridor) {
   simulation::Random random(1);
   Mapping mapping;
   double sigma_m = 0.0;
-  for (int i = 0; i < 8; ++i) {
+  for (int i = 0; i < 20; ++i) {
     const Pose2 truth{kStep_m * i, 0.0, 0.0};
     const auto result = mapping.add(scan_in_box(kCorridor, truth.x_m, kRings, 30.0, random), truth);
     ASSERT_TRUE(result.tracking()) << "scan " << i;
@@ -87,8 +87,8 @@ TEST(SparseDrive, LosesOneScanByABadOne) {
   for (int i = 0; i < 12; ++i) {
     const bool bad = i == 3 || i == 7;
     const Pose2 truth{-3.0 + 0.3 * i, 0.0, 0.0};
-    const auto result = mapping.add(
-        bad ? noise(random) : scan_in_box(kRoom, truth.x_m, 25, 30.0, random), truth);
+    const auto result =
+        mapping.add(bad ? noise(random) : scan_in_box(kRoom, truth.x_m, 25, 30.0, random), truth);
     ASSERT_EQ(result.tracking(), !bad) << "scan " << i;
     if (bad) continue;
     EXPECT_NEAR(result.modes.front().T_map_base.x_m, 0.3 * i, 0.05) << "scan " << i;

@@ -80,8 +80,8 @@ TEST(TrackedPose, LearnsWhatOdometryIsOffBy) {
 TEST(TrackedPose, IsAsUnsureOfALongWayAsItsOdometry) {
   TrackedPose track(known({}, 0.001));
   track.follow_odometry({10.0, 0.0, 0.0});
-  EXPECT_NEAR(std::sqrt(track.pose().covariance(0, 0)), 0.5, 0.05);
-  EXPECT_NEAR(std::sqrt(track.pose().covariance(1, 1)), 0.5, 0.05);
+  EXPECT_NEAR(std::sqrt(track.pose().covariance(0, 0)), 0.2, 0.05);
+  EXPECT_NEAR(std::sqrt(track.pose().covariance(1, 1)), 0.3, 0.05);
 }
 
 // A drive on the arc, by odometry and matches.
