@@ -77,6 +77,14 @@ std::vector<MatchMode> refined(const SurfelMap& surfels, const RayPoints& points
   });
 }
 
+std::vector<MatchMode> held_by_surfaces(const SurfelMap& surfels, const RayPoints& points,
+                                        const std::vector<MatchMode>& modes,
+                                        const UncertainPose& prior) {
+  return refined_by(modes, [&](const Pose2& start) {
+    return refine(surfels, points, start, UncertainPose{start, prior.covariance}, RefineConfig{});
+  });
+}
+
 void rank(const EvidenceMap& map, std::span<const ScanRay> rays, std::vector<MatchMode>& modes) {
   for (MatchMode& mode : modes) {
     mode.evidence = map.at(mode.pose, rays, kRankReach_m);

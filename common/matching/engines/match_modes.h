@@ -32,6 +32,12 @@ std::vector<MatchMode> refined(const SurfelMap& surfels, const RayPoints& points
                                const std::vector<MatchMode>& candidates, const UncertainPose& prior,
                                const RefineConfig& config = {});
 
+/// Refines modes that were found without a guess. Where the surfaces in sight hold them no better,
+/// they are as vague as `prior`, wherever that expects them.
+std::vector<MatchMode> held_by_surfaces(const SurfelMap& surfels, const RayPoints& points,
+                                        const std::vector<MatchMode>& modes,
+                                        const UncertainPose& prior);
+
 /// Weighs modes by a scan's rays, and sorts them by their support, the best first.
 void rank(const EvidenceMap& map, std::span<const ScanRay> rays, std::vector<MatchMode>& modes);
 

@@ -8,6 +8,10 @@
 namespace voxlist::matching {
 namespace {
 
+// A prior that is vaguer than this (m), as half a minute without odometry makes it, tells nothing:
+// then the search of the whole map alone says where the scan was taken. A judgement.
+constexpr double kVaguest_m = 20.0;
+
 class SearchMatcher : public Matcher {
  public:
   SearchMatcher(const OccupancyMap& map, const MatcherConfig& config)
@@ -20,6 +24,8 @@ class SearchMatcher : public Matcher {
   Match track(const PreparedScan& scan, const std::optional<PoseWindow>& window,
               const UncertainPose& prior) override {
     Match match = window ? window_.track(scan, *window, prior) : global_.match(scan, evidence());
+    if (!window && worst_sigma_m(prior.covariance) < kVaguest_m)
+      match.modes = held_by_surfaces(surfels_, scan.points(), match.modes, prior);
     weigh_on_surfaces(evidence(), surfels_, scan.few_rays(), match.modes);
     return match;
   }

@@ -97,7 +97,8 @@ class Matcher {
 
   /// The modes within a window round `prior`, what is known by the motion since an earlier scan; in
   /// the whole map without one. In a window, the prior holds a pose where the map's surfaces do
-  /// not, and is one of the candidates. Modes are weighed by on_surfaces().
+  /// not, and is one of the candidates. In the whole map, poses are as vague as a prior that
+  /// tells anything where surfaces do not hold them. Modes are weighed by on_surfaces().
   virtual Match track(const PreparedScan& scan, const std::optional<PoseWindow>& window,
                       const UncertainPose& prior) = 0;
 
