@@ -14,8 +14,11 @@ namespace voxlist {
 namespace {
 
 constexpr std::uint32_t kSeed = 20'260'514;
-constexpr int kEdgeBits = kBoxBits - 3;  // blocks along the box
-constexpr int kShift = kBlockKeyBits;
+// The largest box along x: blocks along each side, in bits.
+constexpr int kSides[3] = {kBoxBits - 3, 8, 7};
+constexpr int kBlockBits = kSides[0] + kSides[1] + kSides[2];
+constexpr int kShifts[3] = {kBlockKeyBits, kBlockKeyBits + kSides[0],
+                            kBlockKeyBits + kSides[0] + kSides[1]};
 
 std::vector<Instructions> instructions_here() {
   std::vector<Instructions> all{Instructions::kPortable};
@@ -25,17 +28,14 @@ std::vector<Instructions> instructions_here() {
 }
 
 RayJob job_of(const std::vector<FixedRay>& rays, CellStore& store) {
-  return {rays.data(),
-          rays.size(),
-          {kShift, kShift + kEdgeBits, kShift + 2 * kEdgeBits},
-          &store.bits()};
+  return {rays.data(), rays.size(), {kShifts[0], kShifts[1], kShifts[2]}, &store.bits()};
 }
 
-// All cells of a box of the largest edge along each side.
+// The cells that are marked in the box.
 class Marked {
  public:
   std::set<Voxel> cells(const std::vector<FixedRay>& rays, Instructions instructions) {
-    store_.begin(3 * kEdgeBits, 100'000);
+    store_.begin(kBlockBits, 100'000);
     mark_rays(job_of(rays, store_), instructions);
     EXPECT_FALSE(store_.bits().is_full);
     std::set<Voxel> cells;
@@ -45,10 +45,10 @@ class Marked {
 
  private:
   void add(std::uint32_t place, std::set<Voxel>& cells) const {
-    constexpr std::uint32_t kMask = (1u << kEdgeBits) - 1;
     const std::uint32_t block = store_.block(place);
     const auto corner = [&](int axis) {
-      return static_cast<std::int32_t>(block >> axis * kEdgeBits & kMask) * 8;
+      const std::uint32_t number = block >> (kShifts[axis] - kBlockKeyBits);
+      return static_cast<std::int32_t>(number & ((1u << kSides[axis]) - 1)) * 8;
     };
     for (std::size_t bit = 0; bit < 512; ++bit) {
       if ((store_.words(place)[bit / 64] >> bit % 64 & 1) == 0) continue;
@@ -160,12 +160,16 @@ TEST(MarkRays, GoesFromEndToEndOfTheBoxTheSameWithAllInstructions) {
   Marked marked;
   RandomRays random(1 << kBoxBits);
   for (int i = 0; i < 30; ++i) {
-    const FixedRay ray = random.any();
+    FixedRay ray = random.any();
+    for (int axis = 1; axis < 3; ++axis) {
+      ray.from[axis] >>= kSides[0] - kSides[axis];
+      ray.to[axis] >>= kSides[0] - kSides[axis];
+    }
     const std::set<Voxel> expected = marked.cells({ray}, Instructions::kPortable);
     std::size_t faces = 1;
-    for (int a = 0; a < 3; ++a)
+    for (int axis = 0; axis < 3; ++axis)
       faces += static_cast<std::size_t>(
-          std::abs((ray.to[a] >> kFractionBits) - (ray.from[a] >> kFractionBits)));
+          std::abs((ray.to[axis] >> kFractionBits) - (ray.from[axis] >> kFractionBits)));
     EXPECT_EQ(expected.size(), faces);
     for (const Instructions instructions : instructions_here())
       ASSERT_EQ(marked.cells({ray}, instructions), expected);
@@ -175,7 +179,7 @@ TEST(MarkRays, GoesFromEndToEndOfTheBoxTheSameWithAllInstructions) {
 TEST(MarkRays, SaysWhenBlocksFindNoRoom) {
   for (const Instructions instructions : instructions_here()) {
     CellStore store;
-    store.begin(3 * kEdgeBits, 3);
+    store.begin(kBlockBits, 3);
     std::vector<FixedRay> ray{{{0, 0, 0}, {(24 << kFractionBits) - 1, 0, 0}}};
     mark_rays(job_of(ray, store), instructions);
     EXPECT_FALSE(store.bits().is_full);
