@@ -19,5 +19,17 @@ TEST(RunReport, SaysNothingOfOdometryThatScansHaveNotMeasured) {
   EXPECT_EQ(odometry_bias(figures), "");
 }
 
+TEST(RunReport, TellsWhatLoopsMovedAndWhichWereNotBelieved) {
+  RunFigures figures;
+  EXPECT_EQ(closed_loops(figures) + refused_loops(figures), "");
+  figures.loops = 5;
+  figures.loops_moved_m = 2.466;
+  EXPECT_EQ(closed_loops(figures),
+            "the drive came back: 5 looks at ground of long before agree, and moved it by up to "
+            "2.47 m");
+  figures.loops_refused = 4;
+  EXPECT_NE(refused_loops(figures).find("4 looks agree"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace voxlist::desk

@@ -14,7 +14,7 @@ struct Loop {
   /// Places of the same look have the same number.
   std::size_t look = 0;
   /// That the scan was taken there, by what it shows alone.
-  double probability = 0.0;
+  double probability = 1.0;
 };
 
 /// The loops that may be believed, in their order, one at most of each look. A wrong one is worse

@@ -3,7 +3,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <deque>
-#include <limits>
 #include <memory>
 #include <numeric>
 #include <optional>
@@ -21,13 +20,18 @@ constexpr double kMap_m = 0.3, kMap_rad = 0.02;
 constexpr double kTaken = 0.5;
 // A match that leaves a direction less sure than this (m) says no more than the map did.
 constexpr double kTold_m = 0.25;
+// One that knows all directions so well (m), as between the scans of a drive, is not asked again
+// the other way round: of stations, where one was, the two differ by more in half of the pairs.
+constexpr double kPlain_m = 0.005;
 // Keyframes that are farther apart than this (m) are not matched to join two parts of a drive.
-constexpr double kSight_m = 20.0, kAnywhere_m = std::numeric_limits<double>::infinity();
+constexpr double kSight_m = 20.0;
 // Most matches that are tried for that, each some 20 ms.
 constexpr std::size_t kMostTries = 200;
 // A scan that fits one neighbour too little is matched with so many in a row. The stations that
 // such a match is needed for are 11 and 17 m apart.
 constexpr std::size_t kMore = 4;
+// So many keyframes are kept ready for the next match.
+constexpr std::size_t kKept = 4;
 // What matches of neighbours have in common and do not tell, since both scans are bent or tilted
 // alike: it grows with the root of the way (m, rad at 1 m). Real stations 7 m apart differ from
 // their reference by 0.01 m and 0.001 rad in the median, and dense drives by 1 mm and 0.01 deg a
@@ -78,8 +82,9 @@ class Neighbours {
 
   std::vector<PoseEdge> join() {
     for (std::size_t i = 1; i < poses_.size(); ++i) join(i - 1, i) || join_with_more(i - 1, i);
-    join_parts(kSight_m, [this](std::size_t a, std::size_t b) { return join(a, b); });
-    join_parts(kAnywhere_m, [this](std::size_t a, std::size_t b) { return add(unmatched(a, b)); });
+    join_parts();
+    for (std::size_t i = 1; i < poses_.size(); ++i)
+      if (part_[i - 1] != part_[i]) add(unmatched(i - 1, i));
     return std::move(edges_);
   }
 
@@ -89,11 +94,15 @@ class Neighbours {
     std::size_t a, b;
   };
 
+  // Stays as long as no more than one other is asked for.
   Prepared& prepared(std::size_t keyframe) {
     const auto at = std::find_if(kept_.begin(), kept_.end(),
                                  [&](const auto& kept) { return kept->number == keyframe; });
-    if (at != kept_.end()) return **at;
-    if (kept_.size() > 3) kept_.pop_front();
+    if (at != kept_.end()) {
+      std::rotate(at, at + 1, kept_.end());
+      return *kept_.back();
+    }
+    if (kept_.size() == kKept) kept_.pop_front();
     kept_.push_back(std::make_unique<Prepared>(keyframe, read_(keyframe), config_));
     return *kept_.back();
   }
@@ -128,7 +137,9 @@ class Neighbours {
   }
 
   bool join(std::size_t from, std::size_t to) {
-    return add_both(matched(from, to), matched(to, from));
+    const std::optional<PoseEdge> there = matched(from, to);
+    const bool plain = there && worst_sigma_m(there->T_from_to.covariance) < kPlain_m;
+    return add_both(there, plain ? std::nullopt : matched(to, from));
   }
 
   bool join_with_more(std::size_t from, std::size_t to) {
@@ -152,19 +163,18 @@ class Neighbours {
   }
 
   // Tries pairs of different parts, the nearest first.
-  template <class Join>
-  void join_parts(double within_m, const Join& join) {
+  void join_parts() {
     std::size_t tries = 0;
-    for (const Pair& pair : pairs_of_parts(within_m))
+    for (const Pair& pair : pairs_of_parts())
       if (part_[pair.a] != part_[pair.b] && ++tries <= kMostTries) join(pair.a, pair.b);
   }
 
-  std::vector<Pair> pairs_of_parts(double within_m) const {
+  std::vector<Pair> pairs_of_parts() const {
     std::vector<Pair> pairs;
     for (std::size_t b = 1; b < poses_.size(); ++b)
       for (std::size_t a = 0; a < b; ++a)
         if (const double away_m = distance_m(poses_[a], poses_[b]);
-            part_[a] != part_[b] && away_m <= within_m)
+            part_[a] != part_[b] && away_m <= kSight_m)
           pairs.push_back({away_m, a, b});
     std::stable_sort(pairs.begin(), pairs.end(),
                      [](const Pair& a, const Pair& b) { return a.distance_m < b.distance_m; });

@@ -56,6 +56,25 @@ TEST(LoopClosing, ThreeLooksAloneAreNotBelieved) {
   EXPECT_EQ(result.poses, open(drive));
 }
 
+TEST(LoopClosing, LooksThatHardlySeeAnythingAreNotBelieved) {
+  BlockDrive drive(kKeyframes, 6);
+  const std::size_t all = closed(drive).loops.size();
+  ASSERT_GT(all, 50u);
+  for (Loop& loop : drive.loops) loop.probability = 0.001;
+  EXPECT_TRUE(closed(drive).loops.empty());
+  // Those that see a lot are not outvoted by those that do not.
+  BlockDrive mixed(kKeyframes, 6);
+  for (const Loop& right : closed(drive = mixed).loops)
+    for (std::size_t i = 0; i < 2; ++i) {
+      Loop vague = right;
+      vague.look = mixed.loops.size();
+      vague.edge.T_from_to.pose.x_m += 0.3 + 0.01 * static_cast<double>(mixed.loops.size() % 50);
+      vague.probability = 0.01;
+      mixed.loops.push_back(vague);
+    }
+  EXPECT_GT(closed(mixed).loops.size(), 9 * all / 10);
+}
+
 TEST(LoopClosing, LooksThatAgreeOnWhatTheDriveDoesNotAllowAreRefused) {
   BlockDrive drive(kKeyframes, 3);
   drive.loops.clear();
