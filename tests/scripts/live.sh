@@ -42,10 +42,13 @@ still_run() {
   for name in "$@"; do kill -0 "${pids[$name]}" || return 1; done
 }
 
-# start_chain: what is heard is in watch.log from here on; localiser and mapper have agreed on a map.
+# start_watch: what is heard is in watch.log from here on.
+start_watch() { start watch "$BIN/bus_watch" $((600 * slower)); }
+
+# start_chain: what is heard is in watch.log, too; localiser and mapper have agreed on a map.
 # The other two of the chain only listen.
 start_chain() {
-  start watch "$BIN/bus_watch"
+  start_watch
   local name
   for name in localiser mapper octomap_export obstacle_detector; do
     start "$name" "$BIN/$name" --config "$work/robot.toml"
