@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "voxlist/matching/scan/flat_surfaces.h"
+#include "voxlist/matching/scan/lonely_points.h"
 #include "voxlist/voxels/fast_cell.h"
 #include "voxlist/voxels/numbering.h"
 
@@ -130,6 +131,10 @@ double PreparedScan::reach_m() const {
   return std::min(reach_m, config_.max_range_m);
 }
 
+const std::vector<std::uint32_t>& PreparedScan::in_company() const {
+  return kept(in_company_, [&] { return without_lonely(cloud_, in_range_); });
+}
+
 const MatchPoints& PreparedScan::points() const {
   return kept(points_, [&] {
     return taken(capped_by_layers(halved(upright_cubes()),
@@ -167,12 +172,19 @@ std::vector<Eigen::Vector3f> PreparedScan::search_points(const Indices& telling)
   return taken(capped_by_layers(std::move(cubes), {telling.size()})).points;
 }
 
+// Points that are alone would count more than others, each in a cube of its own.
+std::vector<ScanRay> PreparedScan::lost_rays(std::size_t level) const {
+  std::vector<InCube> cubes = thinned(cloud_.points, in_company());
+  for (std::size_t i = 0; i < level; ++i) cubes = halved(cubes);
+  return rays(capped_by_layers(std::move(cubes), {kMostRays}));
+}
+
 const std::vector<ScanRay>& PreparedScan::near_rays() const {
-  return kept(near_rays_, [&] { return rays(capped_by_layers(cubes(kNearLevel), {kMostRays})); });
+  return kept(near_rays_, [&] { return lost_rays(kNearLevel); });
 }
 
 const std::vector<ScanRay>& PreparedScan::even_rays() const {
-  return kept(even_rays_, [&] { return rays(capped_by_layers(cubes(kEvenLevel), {kMostRays})); });
+  return kept(even_rays_, [&] { return lost_rays(kEvenLevel); });
 }
 
 const std::vector<ScanRay>& PreparedScan::few_rays() const {

@@ -61,6 +61,10 @@ class PreparedScan {
   /// lid covers the sensor: all points within 0.5 m.
   const std::vector<std::uint32_t>& in_range() const { return in_range_; }
 
+  /// Those of in_range() that have other points about them: a search of the whole map asks about no
+  /// others.
+  const std::vector<std::uint32_t>& in_company() const;
+
   /// For a search of the whole map: of the points with these indices, which its map finds telling,
   /// one of each of the widest cubes that are enough. Surfaces count by their area, however many
   /// points lie on the near ones. All of them when there are few.
@@ -83,12 +87,14 @@ class PreparedScan {
   const std::vector<InCube>& cubes(std::size_t level) const;
   std::vector<InCube> upright_cubes() const;
   MatchPoints taken(const Indices& indices) const;
+  std::vector<ScanRay> lost_rays(std::size_t level) const;
   std::vector<ScanRay> rays(const Indices& indices) const;
 
   const Cloud& cloud_;
   const ScanConfig config_;
   const Indices in_range_;
   mutable std::array<std::optional<std::vector<InCube>>, kLevels> cubes_;
+  mutable std::optional<Indices> in_company_;
   mutable std::optional<MatchPoints> points_, few_points_;
   mutable std::optional<std::vector<ScanRay>> near_rays_, even_rays_, few_rays_;
 };

@@ -61,7 +61,7 @@ std::vector<Eigen::Vector3f> GlobalMap::choose_points(const PreparedScan& scan,
 // out before the scan is thinned: the cubes at the foot of a wall would else be the floor's.
 std::vector<std::uint32_t> GlobalMap::telling(const PreparedScan& scan) const {
   std::vector<std::uint32_t> near, telling;
-  for (const std::uint32_t i : scan.in_range()) {
+  for (const std::uint32_t i : scan.in_company()) {
     const Eigen::Vector3f& p = scan.cloud().points[i];
     if (!within_reach(p)) continue;
     near.push_back(i);
