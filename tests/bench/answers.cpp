@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <numbers>
 
+#include "tests/bench/drives/bad_scans.h"
+
 namespace voxlist::bench {
 namespace {
 
@@ -28,14 +30,21 @@ simulation::Building now(const Kind& kind, const TestFloorConfig& mapped) {
   return make_floor(there.wing, there.wings);
 }
 
+Cloud as_seen(const Kind& kind, Cloud scan, simulation::Random& random) {
+  return kind.short_returns > 0.0 ? with_short_returns(std::move(scan), kind.short_returns, random)
+                                  : scan;
+}
+
 std::vector<Query> scans_about(const Kind& kind, const TestFloor& floor,
                                const simulation::Building& building, int count, int seed) {
-  simulation::Random random(4711, static_cast<std::uint64_t>(seed));
+  simulation::Random random(4711, static_cast<std::uint64_t>(seed)),
+      noise(4712, static_cast<std::uint64_t>(seed));
   std::vector<Query> queries;
   while (std::ssize(queries) < count) {
     const Pose2 truth = free_pose(floor, random);
     if (building.clearance_m({truth.x_m, truth.y_m}, 0.05, 1.0) < 0.35) continue;
-    queries.push_back({scan_of(kind, building, truth, 1'000'000 + queries.size()), truth});
+    queries.push_back(
+        {as_seen(kind, scan_of(kind, building, truth, 1'000'000 + queries.size()), noise), truth});
   }
   return queries;
 }

@@ -11,14 +11,18 @@ namespace voxlist::bench {
 /// What is asked of a map.
 struct Kind {
   std::string name;
-  bool changed = false;  ///< furniture was moved since it was mapped
-  bool foreign = false;  ///< the robot is in another building
-  bool dense = false;    ///< by a laser that sees all round
-  int people = 0;        ///< that stand round the robot
+  bool changed = false;        ///< furniture was moved since it was mapped
+  bool foreign = false;        ///< the robot is in another building
+  bool dense = false;          ///< by a laser that sees all round
+  int people = 0;              ///< that stand round the robot
+  double short_returns = 0.0;  ///< the share of returns that are shortened at random
 };
 
 /// The building that the robot is in.
 simulation::Building now(const Kind& kind, const TestFloorConfig& mapped);
+
+/// A scan of that kind as it comes from the laser, from one without short returns.
+Cloud as_seen(const Kind& kind, Cloud scan, simulation::Random& random);
 
 /// A scan, and where it was taken.
 struct Query {

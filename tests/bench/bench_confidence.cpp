@@ -22,6 +22,9 @@
 namespace voxlist::bench {
 namespace {
 
+// Returns that are shortened where there are short ones.
+constexpr double kShort = 0.05;
+
 // What a map is made of.
 struct Family {
   std::string name;
@@ -39,7 +42,9 @@ std::vector<Kind> kinds_of(const Family& family) {
   std::vector<Kind> kinds{{family.name, false, false, dense, 0}};
   if (family.floor == identical_floor) return kinds;
   kinds.push_back({family.name + " changed", true, false, dense, family.people});
+  kinds.push_back({family.name + " changed short", true, false, dense, family.people, kShort});
   kinds.push_back({family.name + " foreign", false, true, dense, 0});
+  kinds.push_back({family.name + " foreign short", false, true, dense, 0, kShort});
   return kinds;
 }
 
@@ -124,8 +129,10 @@ class Bench {
               matching::Localiser& localiser, int seed) {
     for (int i = 0; i < drives_; ++i) {
       const auto way = static_cast<DriveKind>(i % 3);
-      const auto drive = drive_through(floor, building, way, kind.people,
-                                       static_cast<std::uint64_t>(1000 * seed + i));
+      const auto number = static_cast<std::uint64_t>(1000 * seed + i);
+      auto drive = drive_through(floor, building, way, kind.people, number);
+      simulation::Random random(4713, number);
+      for (DriveStep& step : drive) step.scan = as_seen(kind, std::move(step.scan), random);
       localiser.forget();
       matching::Localisation result;
       std::size_t step = 0;
