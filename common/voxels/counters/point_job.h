@@ -21,7 +21,7 @@ struct PointJob {
   double matrix[3][4];  ///< from the scan to the map, in cells
   float min_range_m, max_range_m;
   FixedRay* rays;                      ///< room for all
-  std::int32_t lowest[3], highest[3];  ///< of the rays' ends, to be widened
+  std::int32_t lowest[3], highest[3];  ///< of ends and starts, to be widened
 };
 
 /// Rays whose ends are to be marked and which are to be moved: by -corner.
@@ -66,21 +66,18 @@ inline void place(const PointJob& job, const Points& in, std::int32_t* good, Coo
   }
 }
 
-inline float range_of(const Points& from, const Points& to, std::size_t i) {
-  const float x = to.at[0][i] - from.at[0][i], y = to.at[1][i] - from.at[1][i],
-              z = to.at[2][i] - from.at[2][i];
-  return __builtin_sqrtf(x * x + y * y + z * z);
-}
+inline float square(float value) { return value * value; }
 
-// Which points are hits: see is_within().
+// Which points are hits, as is_within() says, by the squares of their ranges.
 inline void judge(const PointJob& job, const Points& from, const Points& to, std::int32_t* good) {
+  const float least = square(job.min_range_m), most = square(job.max_range_m);
   for (std::size_t i = 0; i < kPointsAtOnce; ++i) {
-    const float range_m = range_of(from, to, i);
-    const bool is_point = to.at[0][i] != 0.0F || to.at[1][i] != 0.0F || to.at[2][i] != 0.0F;
-    good[i] =
-        is_point & (range_m > 0.0F) & (range_m >= job.min_range_m) & (range_m <= job.max_range_m)
-            ? -1
-            : 0;
+    const float range = square(to.at[0][i] - from.at[0][i]) + square(to.at[1][i] - from.at[1][i]) +
+                        square(to.at[2][i] - from.at[2][i]);
+    const float size = square(to.at[0][i]) + square(to.at[1][i]) + square(to.at[2][i]);
+    const std::int32_t is_point = size > 0.0F ? -1 : 0, is_ray = range > 0.0F ? -1 : 0;
+    const std::int32_t is_far = range >= least ? -1 : 0, is_near = range <= most ? -1 : 0;
+    good[i] = is_point & is_ray & is_far & is_near;
   }
 }
 
@@ -112,16 +109,15 @@ inline std::size_t put(const Coordinates& from, const Coordinates& to, const std
 // The starts of the rays in the map. Most scans have one for all, which is placed once.
 class Starts {
  public:
-  explicit Starts(const PointJob& job) : job_(job) { place_all(); }
+  explicit Starts(PointJob& job) : job_(job) { place_all(); }
 
   void take(std::size_t first, std::size_t size) {
-    if (job_.origins == nullptr) return;
-    Points next{};
-    load(job_.origins + 3 * first, size, next);
+    const float* next = job_.origins == nullptr ? nullptr : job_.origins + 3 * first;
+    if (next == nullptr || is_as_before(next, size)) return;
+    before_ = next;
+    load(next, size, origins);
     for (std::size_t i = size; i < kPointsAtOnce; ++i)
-      for (auto& axis : next.at) axis[i] = axis[0];
-    if (__builtin_memcmp(&next, &origins, sizeof next) == 0) return;
-    origins = next;
+      for (auto& axis : origins.at) axis[i] = axis[0];
     place_all();
   }
 
@@ -130,12 +126,18 @@ class Starts {
   alignas(64) std::int32_t good[kPointsAtOnce];
 
  private:
+  bool is_as_before(const float* next, std::size_t size) const {
+    return before_ != nullptr && __builtin_memcmp(next, before_, 3 * size * sizeof(float)) == 0;
+  }
+
   void place_all() {
     for (std::int32_t& g : good) g = -1;
     place(job_, origins, good, at);
+    if (job_.origins == nullptr || before_ != nullptr) widen(job_, at, good);
   }
 
-  const PointJob& job_;
+  PointJob& job_;
+  const float* before_ = nullptr;
 };
 
 // Returns how many rays there are.
@@ -154,7 +156,6 @@ inline std::size_t take_points(PointJob& job) {
     for (std::size_t i = 0; i < kPointsAtOnce; ++i) good[i] &= i < size ? starts.good[i] : 0;
     place(job, points, good, ends);
     widen(job, ends, good);
-    widen(job, starts.at, good);
     taken += put(starts.at, ends, good, size, job.rays + taken);
   }
   return taken;
