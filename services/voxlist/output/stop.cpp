@@ -2,18 +2,21 @@
 
 #include <unistd.h>
 
+#include <atomic>
 #include <csignal>
 
 namespace voxlist::desk {
 namespace {
 
-volatile std::sig_atomic_t g_stop_requested = 0;
+// Several threads ask; the signal handler says so.
+std::atomic<bool> g_stop_requested = false;
+static_assert(std::atomic<bool>::is_always_lock_free);
 
 // Work that looks at stop_requested() has so long (s).
 constexpr unsigned kGrace_s = 1;
 
 void request_stop(int) {
-  g_stop_requested = 1;
+  g_stop_requested = true;
   alarm(kGrace_s);
 }
 
@@ -26,7 +29,7 @@ void end_now(int) {
 }  // namespace
 
 void stop_on_interrupt() {
-  g_stop_requested = 0;
+  g_stop_requested = false;
   struct sigaction action = {};
   action.sa_handler = request_stop;
   action.sa_flags = static_cast<int>(SA_RESETHAND);
@@ -38,8 +41,8 @@ void stop_on_interrupt() {
 }
 
 bool stop_requested() {
-  if (g_stop_requested != 0) alarm(0);
-  return g_stop_requested != 0;
+  if (g_stop_requested) alarm(0);
+  return g_stop_requested;
 }
 
 }  // namespace voxlist::desk
