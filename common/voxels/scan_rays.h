@@ -29,7 +29,12 @@ void visit_rays(const Cloud& cloud_base, const Pose3& T_map_base, double max_ran
 /// Marks the cells that a ray passes on its way to the cell that it ends in, which is not marked.
 inline void mark_passed(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double resolution_m,
                         ScanCells& cells) {
-  visit_ray_before_end(from, to, resolution_m, [&](const Voxel& cell) { cells.mark(cell); });
+  const Voxel end = voxel_at(to, resolution_m);
+  visit_ray(from, to, resolution_m, [&](const Voxel& cell) {
+    if (cell == end) return false;
+    cells.mark(cell);
+    return true;
+  });
 }
 
 }  // namespace voxlist

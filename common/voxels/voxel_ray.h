@@ -47,37 +47,6 @@ struct RayAxis {
   }
 };
 
-/// A way through the lattice, from voxel to voxel. Precondition: both ends are in the lattice.
-struct RayWalk {
-  RayAxis x, y, z;
-  std::int64_t faces;  ///< left to cross
-
-  RayWalk(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double resolution_m)
-      : RayWalk(from, to, voxel_at(from, resolution_m), voxel_at(to, resolution_m), resolution_m) {
-    VOXLIST_CHECK(in_lattice(from, resolution_m) && in_lattice(to, resolution_m),
-                  "a ray's ends must be in the lattice");
-  }
-
-  Voxel at() const { return {x.at, y.at, z.at}; }
-
-  // Which axis comes next is as good as random: masks cost less than mispredicted branches.
-  void cross() {
-    const std::int64_t xy = x.before(y), xz = x.before(z), yz = y.before(z);
-    x.cross(xy & xz);
-    y.cross(~xy & yz);
-    z.cross(~xz & ~yz);
-    --faces;
-  }
-
- private:
-  RayWalk(const Eigen::Vector3d& from, const Eigen::Vector3d& to, const Voxel& first,
-          const Voxel& last, double resolution_m)
-      : x(from.x(), to.x(), first.x, last.x, resolution_m),
-        y(from.y(), to.y(), first.y, last.y, resolution_m),
-        z(from.z(), to.z(), first.z, last.z, resolution_m),
-        faces(x.faces + y.faces + z.faces) {}
-};
-
 /// Calls visit(Voxel) for the voxels of edge `resolution_m` that the straight way from `from` to
 /// `to` (m) goes through, in order, each a face's neighbour of the one before, both ends included,
 /// until visit returns false (Amanatides and Woo's traversal). Precondition: both ends are in the
@@ -85,15 +54,20 @@ struct RayWalk {
 template <class Visit>
 void visit_ray(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double resolution_m,
                const Visit& visit) {
-  RayWalk walk(from, to, resolution_m);
-  while (visit(walk.at()) && walk.faces > 0) walk.cross();
-}
-
-/// The same for all voxels but the one that `to` lies in: what a ray passes before it ends.
-template <class Visit>
-void visit_ray_before_end(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
-                          double resolution_m, const Visit& visit) {
-  for (RayWalk walk(from, to, resolution_m); walk.faces > 0; walk.cross()) visit(walk.at());
+  VOXLIST_CHECK(in_lattice(from, resolution_m) && in_lattice(to, resolution_m),
+                "a ray's ends must be in the lattice");
+  const Voxel first = voxel_at(from, resolution_m), last = voxel_at(to, resolution_m);
+  RayAxis x(from.x(), to.x(), first.x, last.x, resolution_m);
+  RayAxis y(from.y(), to.y(), first.y, last.y, resolution_m);
+  RayAxis z(from.z(), to.z(), first.z, last.z, resolution_m);
+  std::int64_t faces = x.faces + y.faces + z.faces;
+  // Which axis comes next is as good as random: masks cost less than mispredicted branches.
+  for (; visit(Voxel{x.at, y.at, z.at}) && faces > 0; --faces) {
+    const std::int64_t xy = x.before(y), xz = x.before(z), yz = y.before(z);
+    x.cross(xy & xz);
+    y.cross(~xy & yz);
+    z.cross(~xz & ~yz);
+  }
 }
 
 }  // namespace voxlist

@@ -15,7 +15,7 @@ TEST(RunReport, TellsWhatOdometryIsOffBy) {
 TEST(RunReport, SaysNothingOfOdometryThatScansHaveNotMeasured) {
   RunFigures figures;
   EXPECT_EQ(odometry_bias(figures), "");
-  figures.odometry_bias = matching::OdometryBias{0.0, 0.0, 0.05, 0.05};
+  figures.odometry_bias = matching::OdometryBias{0.0, 0.0, 0.02, 0.03};
   EXPECT_EQ(odometry_bias(figures), "");
 }
 

@@ -158,20 +158,6 @@ TEST(VoxelRay, WithinOneVoxelVisitsItOnce) {
   EXPECT_EQ(way({-0.01, 0.01, 0.01}, {-0.01, 0.01, 0.01}), (std::vector<Voxel>{{-1, 0, 0}}));
 }
 
-TEST(VoxelRay, GoesTheSameWayWhereItsEndIsLeftOut) {
-  std::mt19937 random(kSeed);
-  std::uniform_real_distribution<double> coordinate(-3.0, 3.0);
-  for (int i = 0; i < 500; ++i) {
-    const Point from(coordinate(random), coordinate(random), coordinate(random));
-    // Every fifth ends in the voxel that it starts in.
-    const Point to = i % 5 == 0 ? from : Point(coordinate(random), coordinate(random), from.z());
-    std::vector<Voxel> all = way(from, to), passed;
-    visit_ray_before_end(from, to, kResolution_m, [&](const Voxel& v) { passed.push_back(v); });
-    all.pop_back();
-    EXPECT_EQ(passed, all);
-  }
-}
-
 TEST(VoxelRay, StopsWhenItIsTold) {
   std::vector<Voxel> voxels;
   visit_ray({0.01, 0.01, 0.01}, {8.0, 0.01, 0.01}, kResolution_m, [&](const Voxel& v) {

@@ -20,8 +20,8 @@ const char* remedy(const RunFigures& figures) {
                             "walls";
 }
 
-// Told from this standard deviation of the scale on.
-constexpr double kKnown = 0.02;
+// Told from this standard deviation of the scale on: half of what is known before scans tell.
+constexpr double kKnown = 0.01;
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 
