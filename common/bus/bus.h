@@ -90,6 +90,19 @@ class Bus {
     subscribe_encoded(channel.name, &check_wire<M>, take, delivery);
   }
 
+  /// The same for a handler that reads the message where it lies (CloudView). The bytes are a whole
+  /// M, until the handler returns.
+  template <class M>
+  void subscribe_bytes(Channel<M> channel, std::function<void(Bytes)> handler,
+                       Delivery delivery = Delivery::kEvery) {
+    const auto take = [handler = std::move(handler)](Bytes bytes) {
+      const Fault fault = check_wire<M>(bytes);
+      if (fault == Fault::kNone) handler(bytes);
+      return fault;
+    };
+    subscribe_encoded(channel.name, &check_wire<M>, take, delivery);
+  }
+
   /// Waits up to `timeout` for a message, then handles all that wait (256 at most). A signal ends
   /// the wait early, and so does `wake_fd` when it can be read: a device, for the service to look
   /// at. False: nothing will come any more, because the log has ended or the connection
