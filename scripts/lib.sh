@@ -5,9 +5,10 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 program=$(basename "$0")
 
 # The services that scripts/services runs, in the order of services/README.md. The first three are for
-# robots that have the mirror scanner.
+# robots that have the mirror scanner, the next one for those that have another 3D laser.
 scanner_services=(laser_driver mirror_monitor cloud_assembler)
-services=("${scanner_services[@]}" localiser mapper octomap_export obstacle_detector)
+adapter_services=(cloud_adapter)
+services=("${scanner_services[@]}" "${adapter_services[@]}" localiser mapper octomap_export obstacle_detector)
 
 say() { echo "$program: $*" >&2; }
 

@@ -5,8 +5,8 @@ namespace {
 
 // Each list in the order of its enum.
 constexpr std::array<const char*, kMessageFates> kMessageNames{
-    "used",      "superseded",  "out_of_order", "bad_point_times",
-    "no_points", "no_odometry", "overflow"};
+    "used",      "left_for_newer", "out_of_order", "bad_point_times",
+    "no_points", "no_odometry",    "overflow"};
 constexpr std::array<const char*, kPointFates> kPointNames{"points",   "no_return", "no_time",
                                                            "too_near", "too_far",   "robot"};
 

@@ -48,6 +48,9 @@ struct Adapted {
   std::vector<Cloud> clouds;
   std::vector<Cloud> slices;
 
+  /// For each of `clouds`, the number of the message whose last point is its latest.
+  std::vector<std::int64_t> numbers;
+
   /// One for each sensor.
   std::vector<SensorReport> sensors;
 

@@ -75,6 +75,14 @@ Adapted CloudAdapter::add_odometry(const StampedPose3& T_odom_base) {
   return out;
 }
 
+Adapted CloudAdapter::finish() {
+  Adapted out = start();
+  if (waiting_.empty()) return out;
+  newest_us_ = waiting_.back().last_us + to_us(config_.max_wait_ms) + 1;
+  advance(out);
+  return out;
+}
+
 Adapted CloudAdapter::start() const {
   Adapted out;
   out.sensors.resize(sensors_.size());
@@ -150,9 +158,9 @@ void CloudAdapter::join(std::int64_t now_us, Adapted& out) {
 }
 
 void CloudAdapter::wait(std::vector<Sweep> sweeps, bool is_slice, Adapted& out) {
-  std::int64_t last_us = sweeps.front().last_us;
-  for (const Sweep& sweep : sweeps) last_us = std::max(last_us, sweep.last_us);
-  waiting_.push_back({std::move(sweeps), last_us, is_slice});
+  const Sweep& latest = *std::ranges::max_element(sweeps, {}, &Sweep::last_us);
+  const std::int64_t last_us = latest.last_us, number = latest.raw.number;
+  waiting_.push_back({std::move(sweeps), last_us, number, is_slice});
   if (waiting_.size() <= kMostWaiting) return;
   for (const Sweep& sweep : waiting_.front().sweeps)
     ++out.sensors[sweep.sensor][MessageFate::kOverflow];
@@ -164,8 +172,10 @@ void CloudAdapter::advance(Adapted& out) {
     const Waiting& first = waiting_.front();
     const bool is_known = !needs_odometry_ || knows(first.last_us);
     if (!is_known && newest_us_ - first.last_us <= to_us(config_.max_wait_ms)) return;
-    if (auto cloud = make(first, out))
+    if (auto cloud = make(first, out)) {
       (first.is_slice ? out.slices : out.clouds).push_back(std::move(*cloud));
+      if (!first.is_slice) out.numbers.push_back(first.number);
+    }
     waiting_.pop_front();
   }
 }

@@ -30,6 +30,9 @@ class CloudAdapter {
 
   Adapted add_odometry(const StampedPose3& T_odom_base);
 
+  /// Nothing more will come: what waits for ODOMETRY goes as far as that is known.
+  Adapted finish();
+
   /// Whether clouds need ODOMETRY.
   bool needs_odometry() const { return needs_odometry_; }
 
@@ -50,6 +53,7 @@ class CloudAdapter {
   struct Waiting {
     std::vector<Sweep> sweeps;
     std::int64_t last_us = 0;
+    std::int64_t number = 0;
     bool is_slice = false;
   };
 

@@ -10,6 +10,9 @@ namespace voxlist::adapter {
 struct RawCloud {
   std::int64_t utime_us = 0;
 
+  /// Whatever the caller counts by; handed through to the cloud that this one completes.
+  std::int64_t number = 0;
+
   /// In the sensor's frame (m). Not finite, or 0,0,0: nothing came back.
   std::vector<Eigen::Vector3f> points;
 

@@ -9,8 +9,17 @@ namespace voxlist::config {
 /// each service, in the order of services/README.md. A service looks only into its own, and
 /// complains about a table that nobody would read.
 inline const std::vector<std::string> kTables = {
-    "bus",         "simulator", "laser_driver", "mirror_monitor", "cloud_assembler",
-    "scan_source", "localiser", "mapper",       "octomap_export", "obstacle_detector",
+    "bus",
+    "simulator",
+    "laser_driver",
+    "mirror_monitor",
+    "cloud_assembler",
+    "cloud_adapter",
+    "scan_source",
+    "localiser",
+    "mapper",
+    "octomap_export",
+    "obstacle_detector",
 };
 
 }  // namespace voxlist::config

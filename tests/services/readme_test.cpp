@@ -10,6 +10,7 @@
 #include <set>
 #include <string>
 
+#include "services/cloud_adapter/cloud_adapter_service.h"
 #include "services/cloud_assembler/cloud_assembler_service.h"
 #include "services/laser_driver/laser_driver_service.h"
 #include "services/localiser/localiser_service.h"
@@ -46,6 +47,7 @@ const std::map<std::string, std::string> kServiceTables = {
     {"laser_driver", table_of<scanner::Lms200Config>()},
     {"mirror_monitor", table_of<MirrorMonitorConfig>()},
     {"cloud_assembler", table_of<scanner::CloudAssemblerConfig>()},
+    {"cloud_adapter", table_of<adapter::AdapterConfig>()},
     {"scan_source", table_of<ScanSourceConfig>()},
     {"localiser", table_of<LocaliserServiceConfig>()},
     {"mapper", table_of<MapperServiceConfig>()},
