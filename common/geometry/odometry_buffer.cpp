@@ -22,20 +22,30 @@ Pose2 on_the_way(const StampedPose2& a, const StampedPose2& b, std::int64_t utim
 
 }  // namespace
 
-void OdometryBuffer::add(const StampedPose2& T_odom_base) {
+void OdometryBuffer::add(const StampedPose2& T_odom_base, const Tilt& tilt) {
   if (!poses_.empty() && poses_.back().utime_us - T_odom_base.utime_us > kMaxAge_us) poses_.clear();
   const auto later =
       std::upper_bound(poses_.begin(), poses_.end(), T_odom_base.utime_us, kIsBefore);
-  poses_.insert(later, T_odom_base);
+  poses_.insert(later, Entry{T_odom_base, tilt});
   if (poses_.size() > kCapacity) poses_.pop_front();
 }
 
-std::optional<Pose2> OdometryBuffer::at(std::int64_t utime_us) const {
+const OdometryBuffer::Entry* OdometryBuffer::latest(std::int64_t utime_us) const {
   const auto later = std::upper_bound(poses_.begin(), poses_.end(), utime_us, kIsBefore);
-  if (later == poses_.begin()) return std::nullopt;
-  const StampedPose2& latest = *std::prev(later);
-  if (utime_us - latest.utime_us > kMaxAge_us) return std::nullopt;
-  return latest.pose;
+  if (later == poses_.begin()) return nullptr;
+  const Entry& latest = *std::prev(later);
+  return utime_us - latest.utime_us > kMaxAge_us ? nullptr : &latest;
+}
+
+std::optional<Pose2> OdometryBuffer::at(std::int64_t utime_us) const {
+  const Entry* entry = latest(utime_us);
+  return entry ? std::optional(entry->pose) : std::nullopt;
+}
+
+std::optional<Tilt> OdometryBuffer::tilt_at(std::int64_t utime_us) const {
+  const Entry* entry = latest(utime_us);
+  if (!entry || (entry->tilt.roll_rad == 0.0 && entry->tilt.pitch_rad == 0.0)) return std::nullopt;
+  return entry->tilt;
 }
 
 std::optional<Pose2> OdometryBuffer::estimate(std::int64_t utime_us,

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "voxlist/geometry/cloud.h"
+#include "voxlist/geometry/tilt.h"
 
 namespace voxlist {
 
@@ -18,13 +19,18 @@ class OdometryBuffer {
   /// Poses that are kept: ten seconds of the fastest odometry.
   static constexpr std::size_t kCapacity = 1000;
 
-  /// Takes T_odom_base. Poses may come a little out of order; one that is more than kMaxAge_us
-  /// older than the newest means that time started anew, and all before it is forgotten.
-  void add(const StampedPose2& T_odom_base);
+  /// Takes T_odom_base, and what it leaves out. Poses may come a little out of order; one that is
+  /// more than kMaxAge_us older than the newest means that time started anew, and all before it is
+  /// forgotten.
+  void add(const StampedPose2& T_odom_base, const Tilt& tilt = {});
 
   /// The latest pose that is not after the time, as it was measured. Nothing when there is none, or
   /// when it is older than kMaxAge_us then.
   std::optional<Pose2> at(std::int64_t utime_us) const;
+
+  /// Roll and pitch of that pose; nothing also where both are exactly 0: this odometry does not
+  /// measure them.
+  std::optional<Tilt> tilt_at(std::int64_t utime_us) const;
 
   /// The pose at the time itself, for what moves between two measurements: on the arc between its
   /// neighbours, or for at most `max_extrapolation_us` after the newest moved on at the last
@@ -36,9 +42,14 @@ class OdometryBuffer {
   std::optional<std::int64_t> newest_utime_us() const;
 
  private:
+  struct Entry : StampedPose2 {
+    Tilt tilt;
+  };
+
+  const Entry* latest(std::int64_t utime_us) const;
   std::optional<Pose2> extrapolated(std::int64_t utime_us) const;
 
-  std::deque<StampedPose2> poses_;  // by time
+  std::deque<Entry> poses_;  // by time
 };
 
 }  // namespace voxlist

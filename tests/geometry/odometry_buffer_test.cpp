@@ -109,5 +109,14 @@ TEST(OdometryBuffer, TakesNoVelocityFromPosesOfNearlyTheSameTime) {
   EXPECT_NEAR(buffer.estimate(100'000, 100'000)->x_m, 0.12, 0.001);
 }
 
+TEST(OdometryBuffer, TellsRollAndPitchWhereTheyAreMeasured) {
+  OdometryBuffer buffer;
+  buffer.add({1'000'000, {}});
+  EXPECT_FALSE(buffer.tilt_at(1'000'000)) << "wheels measure none";
+  buffer.add({2'000'000, {}}, {0.0, 0.1, -0.2});
+  EXPECT_EQ(buffer.tilt_at(2'500'000), (Tilt{0.0, 0.1, -0.2}));
+  EXPECT_FALSE(buffer.tilt_at(3'500'000)) << "too old";
+}
+
 }  // namespace
 }  // namespace voxlist
