@@ -11,7 +11,7 @@ constexpr std::int64_t kInt64 = 8;
 constexpr std::int64_t kFloat = 4;
 constexpr std::int64_t kDouble = 8;
 constexpr std::int64_t kPoint = 3 * kFloat;
-constexpr std::int64_t kPoseMode = (3 + 9 + 2) * kDouble;
+constexpr std::int64_t kPoseMode = (3 + 9 + 3 + 2) * kDouble;
 constexpr std::int64_t kVoxelBlock = 3 * kInt32 + 8 * kInt64;
 constexpr std::int64_t kEmptyText = kInt32 + 1;
 

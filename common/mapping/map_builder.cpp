@@ -29,11 +29,12 @@ bool MapBuilder::has_moved(const Pose2& pose) const {
          turn_rad(pose, looked_at_) >= config_.min_turn_deg * std::numbers::pi / 180.0;
 }
 
-bool MapBuilder::wants(const Cloud& cloud, const Pose2& pose) {
+bool MapBuilder::wants(const Cloud& cloud, const Pose2& pose, const Tilt& tilt) {
   if (poses_.empty()) return true;
   if (!has_moved(pose)) return false;
   looked_at_ = pose;
-  return scan_news(cloud, to_pose3(pose), config_.max_range_m, map_).share() >= config_.min_news;
+  return scan_news(cloud, to_pose3(pose, tilt), config_.max_range_m, map_).share() >=
+         config_.min_news;
 }
 
 void MapBuilder::clear() {

@@ -4,6 +4,7 @@
 
 #include "voxlist/geometry/cloud.h"
 #include "voxlist/geometry/pose.h"
+#include "voxlist/geometry/tilt.h"
 #include "voxlist/voxels/occupancy_map.h"
 
 namespace voxlist::mapping {
@@ -50,7 +51,7 @@ class MapBuilder {
 
   /// Whether a cloud (in base) at this pose (T_map_base, which must be a sure one) is worth adding:
   /// it has moved enough since the last one that was looked at, and tells enough that is new.
-  bool wants(const Cloud& cloud, const Pose2& pose);
+  bool wants(const Cloud& cloud, const Pose2& pose, const Tilt& tilt = {});
 
   /// Puts a keyframe into the map, whatever wants() says; without its points nearer than
   /// min_range_m. Returns it as it is in the map, for whoever keeps it: here only its pose is.

@@ -42,6 +42,9 @@ localisation_t to_message(const matching::Localisation& result) {
   for (const matching::PoseMode& mode : result.modes) {
     pose_mode_t out{};
     bus::write({mode.T_map_base, mode.covariance}, out.pose, out.covariance);
+    out.tilt[0] = mode.tilt.z_m;
+    out.tilt[1] = mode.tilt.roll_rad;
+    out.tilt[2] = mode.tilt.pitch_rad;
     out.overlap = mode.overlap_ratio;
     out.probability = mode.probability;
     message.modes.push_back(out);
@@ -100,7 +103,7 @@ void LocaliserService::take_odometry(const pose_t& message) {
     return health_.count("ODOMETRY/not_a_pose");
   }
   const StampedPose2 T_odom_base{pose->utime_us, to_pose2(pose->pose)};
-  odometry_.add(T_odom_base);
+  odometry_.add(T_odom_base, tilt_of(pose->pose));
   carry_on(T_odom_base);
 }
 
@@ -243,6 +246,7 @@ void LocaliserService::publish(const Answer& answer) {
   message.elapsed_us = static_cast<std::int32_t>(answer.elapsed_us);
   if (found.odometry_error) tell(*found.odometry_error);
   if (found.odometry_bias) tell(*found.odometry_bias);
+  if (found.floor) tell(*found.floor);
   health_.count(std::string("state/") + name(found.state));
   tell(found.state);
   unanswered_utime_us_.reset();
@@ -251,7 +255,7 @@ void LocaliserService::publish(const Answer& answer) {
     const matching::PoseMode& mode = found.modes.front();
     unanswered_utime_us_ = found.utime_us;
     pose_output_.found({found.utime_us, answer.map_id, answer.map_version},
-                       {mode.T_map_base, mode.covariance}, answer.T_odom_base);
+                       {mode.T_map_base, mode.covariance}, mode.tilt, answer.T_odom_base);
   } else {
     pose_output_.lose();
   }
@@ -262,7 +266,8 @@ matching::Localisation LocaliserService::locate(const Cloud& cloud,
                                                 const std::optional<Pose2>& T_odom_base) {
   const auto& held = mapper_.held();
   if (held && held->version == 0) return locate_without_map(cloud, T_odom_base);
-  if (held && !map_.empty()) return localiser_.localise(cloud, T_odom_base);
+  if (held && !map_.empty())
+    return localiser_.localise(cloud, T_odom_base, odometry_.tilt_at(cloud.utime_us));
   matching::Localisation lost;
   lost.utime_us = cloud.utime_us;
   return lost;
@@ -275,7 +280,7 @@ matching::Localisation LocaliserService::locate_without_map(
   result.utime_us = cloud.utime_us;
   if (!origin_ && !can_be_origin(cloud)) return result;
   if (origin_ && map_.empty()) add_scan(*origin_, Pose3::Identity(), kOriginRange_m, map_);
-  result = localiser_.localise(cloud, T_odom_base);
+  result = localiser_.localise(cloud, T_odom_base, odometry_.tilt_at(cloud.utime_us));
   if (!origin_ && result.tracking()) origin_ = cloud;
   return result;
 }
@@ -308,6 +313,20 @@ void LocaliserService::tell(const matching::OdometryBias& bias) {
   health_.gauge("odometry_scale_sigma_percent", bias.scale_sigma * kPercent);
   health_.gauge("odometry_heading_deg", bias.heading_rad / kRadPerDeg);
   health_.gauge("odometry_heading_sigma_deg", bias.heading_sigma_rad / kRadPerDeg);
+}
+
+// A sentence that changes with every cloud could not be read.
+void LocaliserService::tell(const matching::Floor& floor) {
+  constexpr double kNews_rad = 1.0 * kRadPerDeg, kNews_m = 0.1;
+  health_.gauge("floor_tilt_deg", floor.lean_rad() / kRadPerDeg);
+  health_.gauge("floor_height_m", floor.height_m());
+  const bool is_news = !told_floor_ ||
+                       std::abs(floor.lean_rad() - told_floor_->lean_rad()) > kNews_rad ||
+                       std::abs(floor.height_m() - told_floor_->height_m()) > kNews_m;
+  if (!is_news) return;
+  told_floor_ = floor;
+  const bool must_be_level = config_.localiser.tilt == TiltUse::kPlanar;
+  health_.raise("floor", bus::Health::State::kWarning, must_be_level ? what_is_off(floor) : "");
 }
 
 void LocaliserService::tell(matching::LocalisationState state) {

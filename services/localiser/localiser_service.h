@@ -98,6 +98,7 @@ class LocaliserService {
   void tell(matching::LocalisationState state);
   void tell(const matching::OdometryError& error);
   void tell(const matching::OdometryBias& bias);
+  void tell(const matching::Floor& floor);
   void compare_times(std::int64_t cloud_utime_us, bool has_odometry);
 
   bus::Bus& bus_;
@@ -120,6 +121,7 @@ class LocaliserService {
   // What does not fit a map of one cloud: one waits for the next cloud, two for a new map.
   std::vector<Answer> undecided_;
   std::int64_t undecided_since_us_ = 0;
+  std::optional<matching::Floor> told_floor_;  // in HEALTH
 };
 
 }  // namespace voxlist::services

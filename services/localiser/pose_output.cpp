@@ -9,9 +9,10 @@
 
 namespace voxlist::services {
 
-void PoseOutput::found(const Found& cloud, const UncertainPose& T_map_base,
+void PoseOutput::found(const Found& cloud, const UncertainPose& T_map_base, const Tilt& tilt,
                        const std::optional<Pose2>& T_odom_base) {
   cloud_ = cloud;
+  tilt_ = tilt;
   T_map_odom_.reset();
   publish(cloud.utime_us, T_map_base);
   if (!T_odom_base) return;
@@ -40,7 +41,7 @@ void PoseOutput::publish(std::int64_t utime_us, const UncertainPose& T_map_base)
 }
 
 void PoseOutput::publish_pose(std::int64_t utime_us, const Pose2& pose) {
-  pose_t message = bus::to_message(StampedPose2{utime_us, pose});
+  pose_t message = bus::to_message(StampedPose3{utime_us, to_pose3(pose, tilt_)});
   // Velocities in base, over the step since the last POSE.
   if (last_pose_ && utime_us > last_pose_->utime_us) {
     const double dt_s = static_cast<double>(utime_us - last_pose_->utime_us) * 1e-6;

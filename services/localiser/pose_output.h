@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "voxlist/geometry/cloud.h"
+#include "voxlist/geometry/tilt.h"
 #include "voxlist/geometry/uncertain_pose.h"
 
 namespace voxlist::bus {
@@ -24,8 +25,9 @@ class PoseOutput {
 
   explicit PoseOutput(bus::Bus& bus) : bus_(bus) {}
 
-  /// A cloud's pose is sure. `T_odom_base`: odometry at that time, if there is any.
-  void found(const Found& cloud, const UncertainPose& T_map_base,
+  /// A cloud's pose is sure. `tilt`: what T_map_base leaves out; it stays until the next cloud.
+  /// `T_odom_base`: odometry at that time, if there is any.
+  void found(const Found& cloud, const UncertainPose& T_map_base, const Tilt& tilt,
              const std::optional<Pose2>& T_odom_base);
 
   /// Nothing is sure any more, until the next call of found().
@@ -42,6 +44,7 @@ class PoseOutput {
 
   bus::Bus& bus_;
   Found cloud_;
+  Tilt tilt_;
   std::optional<Pose2> T_map_odom_;
   std::optional<StampedPose2> last_pose_;
 };

@@ -59,11 +59,21 @@ std::int64_t new_map_id() {
   return std::chrono::duration_cast<std::chrono::microseconds>(now).count();
 }
 
-std::optional<Pose2> pose_of(const localisation_t& message) {
+// A pose as it is told: its planar part as it is, for thresholds of the way, and the rest.
+struct ToldPose {
+  Pose2 planar;
+  Tilt tilt;
+};
+
+std::optional<ToldPose> pose_of(const localisation_t& message) {
   if (message.state != localisation_t::STATE_TRACKING || message.modes.empty()) return std::nullopt;
   const double* pose = message.modes.front().pose;
-  const bool sane = elementary::hypot(pose[0], pose[1]) < kDrive_m && std::isfinite(pose[2]);
-  return sane ? std::optional(Pose2{pose[0], pose[1], wrap_angle(pose[2])}) : std::nullopt;
+  const double* tilt = message.modes.front().tilt;
+  const bool sane = elementary::hypot(elementary::hypot(pose[0], pose[1]), tilt[0]) < kDrive_m &&
+                    std::isfinite(pose[2]) && std::isfinite(tilt[1]) && std::isfinite(tilt[2]);
+  if (!sane) return std::nullopt;
+  return ToldPose{{pose[0], pose[1], wrap_angle(pose[2])},
+                  {tilt[0], wrap_angle(tilt[1]), wrap_angle(tilt[2])}};
 }
 
 }  // namespace
@@ -120,10 +130,22 @@ void MapperService::decide(const localisation_t& message) {
   const auto pose = pose_of(message);
   if (!pose) return;
   if (version() > 0) confirm();
-  path_.add({message.utime, *pose});
+  if (!takes(pose->tilt)) return;
+  path_.add({message.utime, pose->planar}, pose->tilt);
   if (!config_.extend || !keyframes_.has_room()) return;
   if (!cloud) return health_.count("LOCALISATION/cloud_missing");
-  if (builder_.wants(*cloud, *pose)) add(std::move(*cloud), *pose);
+  if (builder_.wants(*cloud, pose->planar, pose->tilt))
+    add(std::move(*cloud), to_pose3(pose->planar, pose->tilt));
+}
+
+// A map of level clouds is spoilt by one that is not.
+bool MapperService::takes(const Tilt& tilt) {
+  if (config_.tilt != TiltUse::kPlanar || tilt == Tilt{}) return true;
+  health_.count("LOCALISATION/tilted");
+  health_.raise("tilt", bus::Health::State::kWarning,
+                "LOCALISATION tells height, roll and pitch, which are not mapped: set tilt in "
+                "[mapper] as in [localiser]");
+  return false;
 }
 
 void MapperService::confirm() {
@@ -140,8 +162,8 @@ std::optional<Cloud> MapperService::take_waiting_cloud(std::int64_t utime_us) {
   return cloud;
 }
 
-void MapperService::add(Cloud cloud, const Pose2& pose) {
-  keyframes_.add(builder_.add({to_pose3(pose), std::move(cloud)}));
+void MapperService::add(Cloud cloud, const Pose3& pose) {
+  keyframes_.add(builder_.add({pose, std::move(cloud)}));
   path_.mark_keyframe();
   health_.count("keyframes");
   send_keyframes(keyframes_.size() - 1, 1);

@@ -9,6 +9,7 @@
 #include "services/mapper/travelled_path.h"
 #include "voxlist/bus/maps/map_chunks.h"
 #include "voxlist/bus/multicast/paced_sender.h"
+#include "voxlist/geometry/tilt.h"
 #include "voxlist/mapping/map_builder.h"
 #include "voxlist/service/inputs/cloud_input.h"
 
@@ -30,6 +31,7 @@ namespace voxlist::services {
 struct MapperServiceConfig {
   std::string folder = "map";
   bool extend = true;
+  TiltUse tilt = TiltUse::kPlanar;
   mapping::MapBuilderConfig builder;
 
   template <class Visitor>
@@ -39,6 +41,9 @@ struct MapperServiceConfig {
       "empty: in memory alone");
     v("extend", extend,
       "add clouds to the map; false: only serve the map that is there, and write nothing");
+    v("tilt", tilt, kTiltNames,
+      "as in [localiser]. planar: clouds whose pose has height, roll or pitch stay out of the map; "
+      "refine, odometry: they go into it as they are");
     builder.visit(v);
   }
 };
@@ -75,7 +80,8 @@ class MapperService {
   void restore(mapping::Keyframe keyframe);
   void decide(const localisation_t& message);
   void confirm();
-  void add(Cloud cloud, const Pose2& pose);
+  bool takes(const Tilt& tilt);
+  void add(Cloud cloud, const Pose3& pose);
   std::optional<Cloud> take_waiting_cloud(std::int64_t utime_us);
   void send_change(std::int64_t base_version);
   void send_word(std::int64_t answers);

@@ -1,22 +1,21 @@
 #include "services/mapper/travelled_path.h"
 
 namespace voxlist::services {
-namespace {
 
-StampedPose3 in_3d(const StampedPose2& pose) { return {pose.utime_us, to_pose3(pose.pose)}; }
+StampedPose3 TravelledPath::Entry::in_3d() const {
+  return {pose.utime_us, to_pose3(pose.pose, tilt)};
+}
 
-}  // namespace
-
-void TravelledPath::add(const StampedPose2& pose) {
-  newest_.push_back({pose});
+void TravelledPath::add(const StampedPose2& pose, const Tilt& tilt) {
+  newest_.push_back({pose, tilt});
   if (newest_.size() <= kNewest) return;
-  if (newest_.front().is_keyframe) old_keyframes_.push_back(in_3d(newest_.front().pose));
+  if (newest_.front().is_keyframe) old_keyframes_.push_back(newest_.front().in_3d());
   newest_.pop_front();
 }
 
 std::vector<StampedPose3> TravelledPath::poses() const {
   std::vector<StampedPose3> poses = old_keyframes_;
-  for (const Entry& entry : newest_) poses.push_back(in_3d(entry.pose));
+  for (const Entry& entry : newest_) poses.push_back(entry.in_3d());
   return poses;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "voxlist/geometry/cloud.h"
+#include "voxlist/geometry/tilt.h"
 
 namespace voxlist::services {
 
@@ -18,7 +19,7 @@ class TravelledPath {
   /// A keyframe of before.
   void restore(const StampedPose3& keyframe) { old_keyframes_.push_back(keyframe); }
 
-  void add(const StampedPose2& pose);
+  void add(const StampedPose2& pose, const Tilt& tilt = {});
 
   /// The pose added last has become a keyframe's.
   void mark_keyframe() { newest_.back().is_keyframe = true; }
@@ -29,7 +30,10 @@ class TravelledPath {
  private:
   struct Entry {
     StampedPose2 pose;
+    Tilt tilt;
     bool is_keyframe = false;
+
+    StampedPose3 in_3d() const;
   };
 
   std::vector<StampedPose3> old_keyframes_;

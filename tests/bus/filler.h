@@ -81,7 +81,7 @@ class Filler {
 
   void fill(counter_t& m) { fill_all(m.name, m.count); }
   void fill(gauge_t& m) { fill_all(m.name, m.value); }
-  void fill(pose_mode_t& m) { fill_all(m.pose, m.covariance, m.overlap, m.probability); }
+  void fill(pose_mode_t& m) { fill_all(m.pose, m.covariance, m.tilt, m.overlap, m.probability); }
   void fill(voxel_block_t& m) { fill_all(m.x, m.y, m.z, m.bits); }
   void fill(map_request_t& m) { fill_all(m.utime, m.want, m.first, m.map_id, m.version); }
   void fill(rigid_transform_t& m) { fill_all(m.utime, m.trans, m.quat); }

@@ -18,13 +18,19 @@ Cloud wall(std::int64_t utime_us, float width_m) {
   return cloud;
 }
 
+matching::PoseMode at(double x_m) {
+  matching::PoseMode mode;
+  mode.T_map_base.x_m = x_m;
+  return mode;
+}
+
 TEST(Piece, MakesItsMapAnewWhereKeyframesAreMoved) {
   const test::TemporaryFolder folder;
   mapping::KeyframeSpool spool(folder.path());
   Piece piece({}, mapping::MapBuilder(), spool);
-  ASSERT_TRUE(piece.take(wall(0, 1.0F), {}));
-  ASSERT_TRUE(piece.take(wall(1'000'000, 3.0F), {4.0, 0.0, 0.0}));
-  ASSERT_FALSE(piece.take(wall(1'200'000, 3.0F), {4.1, 0.0, 0.0}));
+  ASSERT_TRUE(piece.take(wall(0, 1.0F), at(0.0)));
+  ASSERT_TRUE(piece.take(wall(1'000'000, 3.0F), at(4.0)));
+  ASSERT_FALSE(piece.take(wall(1'200'000, 3.0F), at(4.1)));
 
   const Pose2 moved{3.0, 1.0, std::numbers::pi / 2};
   piece.move_keyframes({{}, moved});

@@ -21,6 +21,8 @@
 #include "voxlist/bus/convert.h"
 #include "voxlist/bus/health.h"
 #include "voxlist/bus/maps/map_convert.h"
+#include "voxlist/geometry/angle.h"
+#include "voxlist/geometry/tilt.h"
 
 namespace voxlist::services {
 namespace {
@@ -45,7 +47,7 @@ Cloud room(std::int64_t utime_us) {
 
 // The service, and a test that plays the sensors and the mapper.
 struct Scene {
-  Scene() : service(bus, health, {}) {
+  explicit Scene(const LocaliserServiceConfig& config = {}) : service(bus, health, config) {
     bus.subscribe(bus::kLocalisation,
                   [this](const localisation_t& m) { localisations.push_back(m); });
     bus.subscribe(bus::kPose, [this](const pose_t& m) { poses.push_back(m); });
@@ -125,6 +127,42 @@ TEST(LocaliserService, AnEmptyMapIsBegunByTheFirstCloud) {
   EXPECT_EQ(scene.localisations[0].map_id, 7);
   EXPECT_EQ(scene.localisations[0].map_version, 0);
   EXPECT_EQ(scene.poses.size(), 1u);
+}
+
+// The room with a floor, by a scanner that is mounted like this.
+Cloud room_on_floor(const Tilt& mount) {
+  Cloud cloud = room(kStart_us);
+  for (float x = -3.F; x < 3.F; x += 0.1F)
+    for (float y = -2.F; y < 2.5F; y += 0.1F) cloud.points.emplace_back(x, y, 0.F);
+  return moved(to_level(mount).inverse(), cloud);
+}
+
+TEST(LocaliserService, NamesAFloorThatIsOffInTheFirstScanAndClaimsNothing) {
+  Scene scene;
+  scene.begin({}, kStart_us);
+  const Tilt mount{0.61, 0.0, 9.8 * kRadPerDeg};
+  scene.bus.publish(bus::kCloud, bus::to_message(room_on_floor(mount), "base", 0));
+  scene.run(kStart_us);
+  EXPECT_NE(scene.health.message().find("floor tilted by 9.8 deg, 0.61 m low: is the mount set?"),
+            std::string::npos)
+      << scene.health.message();
+  ASSERT_EQ(scene.localisations.size(), 1u);
+  EXPECT_EQ(scene.localisations[0].state, localisation_t::STATE_LOST);
+  EXPECT_TRUE(scene.poses.empty());
+}
+
+TEST(LocaliserService, TellsRollAndPitchOfACloudThatMayBeTilted) {
+  LocaliserServiceConfig config;
+  config.localiser.tilt = TiltUse::kRefine;
+  Scene scene(config);
+  scene.begin({}, kStart_us);
+  const Tilt mount{0.61, 0.0, 9.8 * kRadPerDeg};
+  scene.bus.publish(bus::kCloud, bus::to_message(room_on_floor(mount), "base", 0));
+  scene.run(kStart_us);
+  ASSERT_EQ(scene.poses.size(), 1u);
+  EXPECT_NEAR(scene.poses[0].orientation[2], std::sin(mount.pitch_rad / 2.0), 0.002);
+  EXPECT_NEAR(scene.localisations.at(0).modes.at(0).tilt[2], mount.pitch_rad, 0.005);
+  EXPECT_EQ(scene.health.message().find("is the mount set"), std::string::npos);
 }
 
 TEST(LocaliserService, FindsACloudInTheMapThatItWasSent) {

@@ -41,8 +41,9 @@ Cloud cloud_at(std::int64_t utime_us) {
 
 // The service with a folder, and a test that plays localiser and listeners.
 struct Scene {
-  explicit Scene(const std::string& folder, bool extend = true) {
+  explicit Scene(const std::string& folder, bool extend = true, TiltUse tilt = TiltUse::kPlanar) {
     MapperServiceConfig config;
+    config.tilt = tilt;
     config.folder = folder;
     config.extend = extend;
     bus.subscribe(bus::kMapUpdate, [this](const map_update_t& m) { take(m); });
@@ -82,7 +83,7 @@ struct Scene {
 
   // A cloud, and what the localiser says of it.
   void drive(std::int64_t second, const Pose2& pose,
-             std::int32_t state = localisation_t::STATE_TRACKING) {
+             std::int32_t state = localisation_t::STATE_TRACKING, const Tilt& tilt = {}) {
     bus.publish(bus::kCloud, bus::to_message(cloud_at(second * kSecond_us), "base", 0));
     localisation_t message{};
     message.utime = second * kSecond_us;
@@ -94,6 +95,9 @@ struct Scene {
     message.modes[0].pose[0] = pose.x_m;
     message.modes[0].pose[1] = pose.y_m;
     message.modes[0].pose[2] = pose.yaw_rad;
+    message.modes[0].tilt[0] = tilt.z_m;
+    message.modes[0].tilt[1] = tilt.roll_rad;
+    message.modes[0].tilt[2] = tilt.pitch_rad;
     bus.publish(bus::kLocalisation, message);
     run();
   }
@@ -153,6 +157,28 @@ TEST(Mapper, AddsSureCloudsThatMovedAndAnswersEveryLocalisation) {
   ASSERT_EQ(scene.keyframes.size(), 2u);
   EXPECT_EQ(scene.keyframes[1].index, 1);
   EXPECT_EQ(scene.keyframes[1].utime, 4 * kSecond_us);
+}
+
+TEST(Mapper, PutsATiltedCloudIntoTheMapAsItIsWhereItIsToldTo) {
+  const Tilt tilt{0.2, 0.05, -0.1};
+  Scene scene("", true, TiltUse::kRefine);
+  scene.request(map_request_t::WANT_MAP);
+  scene.drive(1, {}, localisation_t::STATE_TRACKING, tilt);
+  ASSERT_EQ(scene.keyframes.size(), 1u);
+  const Eigen::Quaterniond expected(to_level(tilt).linear());
+  EXPECT_NEAR(scene.keyframes[0].trans[2], 0.2, 1e-9);
+  EXPECT_NEAR(scene.keyframes[0].quat[1], expected.x(), 1e-9);
+  EXPECT_NEAR(scene.keyframes[0].quat[2], expected.y(), 1e-9);
+}
+
+TEST(Mapper, LeavesATiltedCloudOutOfAMapOfLevelOnes) {
+  Scene scene("");
+  scene.request(map_request_t::WANT_MAP);
+  scene.drive(1, {}, localisation_t::STATE_TRACKING, {0.2, 0.05, -0.1});
+  EXPECT_TRUE(scene.keyframes.empty());
+  EXPECT_NE(scene.health.message().find("set tilt in [mapper]"), std::string::npos);
+  scene.drive(2, {});
+  EXPECT_EQ(scene.keyframes.size(), 1u);
 }
 
 TEST(Mapper, ADeadMappersMapIsThereAgainAtItsNextStart) {

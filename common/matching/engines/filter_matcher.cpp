@@ -78,6 +78,10 @@ class ParticleFilterMatcher : public Matcher {
     return found;
   }
 
+  SpatialRefinement refined_in_space(const MatchPoints& points, const Pose3& start) override {
+    return refine(ready().surfels, points, start);
+  }
+
   const EvidenceMap& evidence() override { return ready().evidence; }
 
   void map_grew(const ChangedBlocks&) override { ready_.reset(); }

@@ -34,6 +34,10 @@ class SearchMatcher : public Matcher {
     return global_.match_rivals(scan, evidence());
   }
 
+  SpatialRefinement refined_in_space(const MatchPoints& points, const Pose3& start) override {
+    return refine(surfels_, points, start);
+  }
+
   const EvidenceMap& evidence() override {
     if (!evidence_) evidence_.emplace(map_);
     return *evidence_;

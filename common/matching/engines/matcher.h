@@ -11,6 +11,7 @@
 #include "voxlist/matching/search/pose_window.h"
 #include "voxlist/matching/search/search_result.h"
 #include "voxlist/matching/surfaces/evidence.h"
+#include "voxlist/matching/surfaces/refine.h"
 #include "voxlist/voxels/occupancy_map.h"
 
 namespace voxlist::matching {
@@ -105,6 +106,10 @@ class Matcher {
   /// As match() in the whole map, slower, with modes that overlap a good deal less: what else there
   /// is where one stands alone.
   virtual Match match_rivals(const PreparedScan& scan) { return match(scan, std::nullopt); }
+
+  /// A pose near `start` by all six coordinates: where points, floors and ceilings among them, lie
+  /// on the map's surfaces.
+  virtual SpatialRefinement refined_in_space(const MatchPoints& points, const Pose3& start) = 0;
 
   /// The map, made ready for weighing poses.
   virtual const EvidenceMap& evidence() = 0;

@@ -6,10 +6,12 @@
 #include <vector>
 
 #include "voxlist/geometry/pose.h"
+#include "voxlist/geometry/tilt.h"
 #include "voxlist/matching/engines/matcher.h"
 #include "voxlist/matching/localisation/confidence.h"
 #include "voxlist/matching/motion/odometry_check.h"
 #include "voxlist/matching/motion/tracked_pose.h"
+#include "voxlist/matching/scan/floor.h"
 
 namespace voxlist::matching {
 
@@ -29,6 +31,8 @@ const char* name(LocalisationState state);
 /// A candidate for the robot's pose.
 struct PoseMode {
   Pose2 T_map_base;
+  /// What T_map_base leaves out of the whole pose. All 0 where poses are planar.
+  Tilt tilt;
   /// Of (x, y, yaw): m^2, m rad, rad^2.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   /// Matched points whose cell is occupied in the dilated map, as a share, 0..1.
@@ -67,6 +71,8 @@ struct Localisation {
   std::int64_t poses_examined = 0;
   /// What odometry was off by on its way here, where it is known: while tracking.
   std::optional<OdometryError> odometry_error;
+  /// The floor as the cloud shows it; nothing where too little of it is in sight.
+  std::optional<Floor> floor;
 
   bool tracking() const { return state == LocalisationState::kTracking; }
 };

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "voxlist/geometry/angle.h"
 #include "voxlist/matching/localisation/lost_search.h"
 #include "voxlist/matching/localisation/pose_track.h"
 #include "voxlist/matching/localisation/reach_match.h"
@@ -17,6 +18,9 @@ constexpr double kLikely = 0.2;
 // A pose is told as one only where it is known to so much (m), as a standard deviation in the worst
 // direction: about a robot's size.
 constexpr double kExact_m = 0.3;
+// A scan is level when its floor leans by less (rad). Of 560 scans of a street, a hall and
+// stop-and-scan stations none leans by more than 4.1 deg.
+constexpr double kLevel_rad = 5.0 * kRadPerDeg;
 
 LocalisationState state_of(const Localisation& tracked) {
   double any = 0.0;
@@ -45,7 +49,7 @@ Localisation origin_of_map(const PreparedScan& scan) {
   result.utime_us = scan.cloud().utime_us;
   if (scan.in_range().size() < kFewestMatchPoints) return result;
   result.state = LocalisationState::kTracking;
-  result.modes.push_back({Pose2{}, Eigen::Matrix3d::Zero(), 0.0, {}, 1.0});
+  result.modes.push_back({Pose2{}, {}, Eigen::Matrix3d::Zero(), 0.0, {}, 1.0});
   result.confidence = 1.0;
   result.certified = true;
   return result;
@@ -92,6 +96,7 @@ void Localiser::follow_map() {
 void Localiser::forget() {
   track_.reset();
   search_.reset();
+  levelling_.forget();
 }
 
 MotionLimits Localiser::limits() const {
@@ -103,11 +108,39 @@ Matcher& Localiser::matcher() {
   return *matcher_;
 }
 
-Localisation Localiser::localise(const Cloud& cloud, const std::optional<Pose2>& T_odom_base) {
-  follow_map();
-  Localisation result;
-  threads_.run([&] { result = localise(PreparedScan(cloud, config_.matcher.scan), T_odom_base); });
+Localisation Localiser::localise(const Cloud& cloud, const std::optional<Pose2>& T_odom_base,
+                                 const std::optional<Tilt>& odometry_tilt) {
+  std::optional<Pose2> expected;
+  if (const auto predicted = predict(cloud.utime_us, T_odom_base)) expected = predicted->pose;
+  Localisation result = answered(cloud, expected, odometry_tilt, [&](const PreparedScan& scan) {
+    return localise(scan, T_odom_base);
+  });
+  if (result.tracking()) levelling_.learn(result.modes.front().tilt, result.floor);
   return result;
+}
+
+Localisation Localiser::answered(const Cloud& cloud, const std::optional<Pose2>& expected,
+                                 const std::optional<Tilt>& odometry_tilt, const Locate& locate) {
+  follow_map();
+  KnownTilt known{find_floor(cloud), std::nullopt};
+  if (config_.tilt == TiltUse::kOdometry) known.odometry = odometry_tilt;
+  Localisation result;
+  threads_.run([&] {
+    result = config_.tilt == TiltUse::kPlanar ? locate_level(cloud, known, locate)
+                                              : locate_tilted(cloud, known, expected, locate);
+  });
+  result.floor = known.floor;
+  return result;
+}
+
+// A scan that is not level is LOST whatever it fits.
+Localisation Localiser::locate_level(const Cloud& cloud, const KnownTilt& known,
+                                     const Locate& locate) {
+  if (!known.floor || known.floor->lean_rad() < kLevel_rad)
+    return locate(PreparedScan(cloud, config_.matcher.scan));
+  Localisation lost;
+  lost.utime_us = cloud.utime_us;
+  return lost;
 }
 
 std::optional<UncertainPose> Localiser::predict(std::int64_t utime_us,
@@ -116,35 +149,29 @@ std::optional<UncertainPose> Localiser::predict(std::int64_t utime_us,
 }
 
 Localisation Localiser::locate(const Cloud& cloud) {
-  follow_map();
-  Localisation result;
-  threads_.run([&] {
-    result = LostSearch(config_.matcher, limits())
-                 .add(PreparedScan(cloud, config_.matcher.scan), std::nullopt, matcher());
+  return answered(cloud, std::nullopt, std::nullopt, [&](const PreparedScan& scan) {
+    return LostSearch(config_.matcher, limits()).add(scan, std::nullopt, matcher());
   });
-  return result;
 }
 
 Localisation Localiser::recognise(const Cloud& cloud, double here) {
-  follow_map();
-  Localisation result;
-  threads_.run([&] {
-    const PreparedScan scan(cloud, config_.matcher.scan);
+  return answered(cloud, std::nullopt, std::nullopt, [&](const PreparedScan& scan) {
     const ReachMatch found = match_in_reach(matcher(), scan, anywhere(), here, Rivals::kAnywhere);
-    result = from_match(scan, found.match);
+    Localisation result = from_match(scan, found.match);
     for (std::size_t i = 0; i < result.modes.size(); ++i)
       result.modes[i].probability = found.probabilities[i];
     result.confidence = found.best();
+    result.searched_whole_map = true;
+    result.state = state_of_recognised(result);
+    return result;
   });
-  result.searched_whole_map = true;
-  result.state = state_of_recognised(result);
-  return result;
 }
 
 void Localiser::take_over(Localiser& other, const Pose2& T_this_other) {
   track_ = std::move(other.track_);
   search_.reset();
   odometry_check_.clear();
+  levelling_ = other.levelling_;
   if (track_) track_->change_map(T_this_other);
 }
 

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 
 #include "voxlist/geometry/cloud.h"
 #include "voxlist/geometry/uncertain_pose.h"
 #include "voxlist/matching/engines/matcher.h"
+#include "voxlist/matching/localisation/levelling.h"
 #include "voxlist/matching/localisation/localisation.h"
 #include "voxlist/matching/localisation/thread_arena.h"
 #include "voxlist/voxels/occupancy_map.h"
@@ -21,6 +23,7 @@ struct LocaliserConfig {
   /// Without odometry: the fastest that the robot moves and turns.
   double max_speed_mps = 2.0;
   double max_turn_rate_dps = 120.0;
+  TiltUse tilt = TiltUse::kPlanar;
   /// Threads that matching uses; 0: one for each core. Changes speed: no result depends on it.
   int threads = 0;
 
@@ -29,6 +32,10 @@ struct LocaliserConfig {
     v("max_speed_mps", max_speed_mps, "fastest motion to expect without odometry", 0.01, 50.0);
     v("max_turn_rate_dps", max_turn_rate_dps, "fastest turn to expect without odometry", 1.0,
       720.0);
+    v("tilt", tilt, kTiltNames,
+      "planar: clouds are level, poses are x, y, yaw; refine: height, roll and pitch are found "
+      "too, "
+      "beginning with the floor; odometry: beginning with ODOMETRY's roll and pitch");
     v("threads", threads,
       "threads that matching uses, 0: one for each core; no result depends on it", 0, 1024);
     matcher.visit(v);
@@ -39,9 +46,10 @@ struct LocaliserConfig {
 /// the whole map when it is lost. A scan that fits nowhere in reach is LOST by itself; after two of
 /// them the robot may be elsewhere, and the whole map is searched. As long as one scan cannot tell
 /// where it is, candidates live on over the next scans and the motion between them (AMBIGUOUS),
-/// until one of them is sure; then it tracks. AMBIGUOUS with one mode: in one direction nothing in
-/// sight tells where it is, and the mode's covariance says which. Time is the clouds' own. Use from
-/// one thread.
+/// until one of them is sure; then it tracks. A cloud whose floor leans by 5 deg or more is LOST by
+/// itself: taken for level, it would be placed decimetres off. AMBIGUOUS with one mode: in one
+/// direction nothing in sight tells where it is, and the mode's covariance says which. Time is the
+/// clouds' own. Use from one thread.
 class Localiser {
  public:
   /// The map must outlive the localiser. It may change between two calls: the localiser notices by
@@ -55,7 +63,15 @@ class Localiser {
 
   /// Locates a cloud (in base). `T_odom_base`: odometry's pose at the cloud's time, if there is
   /// odometry. In an empty map the cloud defines the map frame: TRACKING at the identity.
-  Localisation localise(const Cloud& cloud, const std::optional<Pose2>& T_odom_base = std::nullopt);
+  Localisation localise(const Cloud& cloud,
+                        const std::optional<Pose2>& T_odom_base = std::nullopt) {
+    return localise(cloud, T_odom_base, std::nullopt);
+  }
+
+  /// The same with odometry's roll and pitch, if it measures them: used where config's tilt says
+  /// so.
+  Localisation localise(const Cloud& cloud, const std::optional<Pose2>& T_odom_base,
+                        const std::optional<Tilt>& odometry_tilt);
 
   /// Where the robot should be at a time, and how sure that is: by odometry since its last sure
   /// pose, or by its last step. Nothing while none is known.
@@ -83,6 +99,28 @@ class Localiser {
   void follow_map();
   Matcher& matcher();
   Localisation localise(const PreparedScan& scan, const std::optional<Pose2>& T_odom_base);
+  // What a cloud leaves behind when it was located.
+  struct Belief;
+  using Locate = std::function<Localisation(const PreparedScan&)>;
+
+  Belief belief() const;
+  void believe(Belief belief);
+  Localisation locate_level(const Cloud& cloud, const KnownTilt& known, const Locate& locate);
+  Localisation locate_at(const Cloud& cloud, const Tilt& tilt, const Locate& locate);
+  Localisation locate_tilted(const Cloud& cloud, const KnownTilt& known,
+                             const std::optional<Pose2>& expected, const Locate& locate);
+  struct RefinedTilt {
+    Tilt tilt;
+    double inlier_ratio = 0.0;
+  };
+  RefinedTilt refined_tilt(const MatchPoints& points, const Pose2& place, const Tilt& start);
+  RefinedTilt tilt_by_modes(const MatchPoints& points, const KnownTilt& known,
+                            const Localisation& found);
+  Tilt expected_tilt(const MatchPoints& points, const KnownTilt& known, const Pose2& expected);
+  Tilt searched_tilt(const Cloud& cloud, const MatchPoints& points, const KnownTilt& known,
+                     const Locate& locate);
+  Localisation answered(const Cloud& cloud, const std::optional<Pose2>& expected,
+                        const std::optional<Tilt>& odometry_tilt, const Locate& locate);
   void begin_track(const PreparedScan& scan, const std::optional<Pose2>& T_odom_base,
                    const UncertainPose& pose);
   Localisation begin(const PreparedScan& scan, const std::optional<Pose2>& T_odom_base);
@@ -97,6 +135,7 @@ class Localiser {
   std::unique_ptr<PoseTrack> track_;
   std::unique_ptr<LostSearch> search_;
   OdometryCheck odometry_check_;
+  Levelling levelling_;
 };
 
 }  // namespace voxlist::matching

@@ -28,7 +28,7 @@ constexpr double kOff_m = 0.3, kOff_rad = 0.12;
 constexpr double kLongestGap_s = 3.0;
 
 PoseMode pose_mode(const MatchMode& mode) {
-  return {mode.pose, mode.covariance, mode.overlap_ratio, {}, 0.0};
+  return {mode.pose, {}, mode.covariance, mode.overlap_ratio, {}, 0.0};
 }
 
 bool lists(const std::vector<PoseMode>& modes, const Pose2& pose) {

@@ -146,6 +146,11 @@ const MatchPoints& PreparedScan::few_points() const {
   return kept(few_points_, [&] { return some_of(points(), kFewPoints); });
 }
 
+MatchPoints PreparedScan::spatial_points() const {
+  return taken(
+      capped_by_layers(halved(cubes(0)), {static_cast<std::size_t>(config_.refine_points)}));
+}
+
 int PreparedScan::layer_doublings(double height_m, int most) const {
   int doublings = 0;
   while (doublings < most && share_with_company(points().points, height_m) < kMostWithCompany) {

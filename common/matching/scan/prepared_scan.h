@@ -48,6 +48,9 @@ class PreparedScan {
   /// For counting in a window, and for a first refinement: some of points(), spread as they are.
   const MatchPoints& few_points() const;
 
+  /// For refinement of height, roll and pitch, too: as points(), floors and ceilings among them.
+  MatchPoints spatial_points() const;
+
   /// How often a layer of that height (m) is to be doubled, at most `most` times, until most of
   /// points() have another one above, below or beside them in it: as high as a laser's rings are
   /// apart, so that the walls of a map of such scans have no holes.

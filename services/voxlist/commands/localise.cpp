@@ -24,6 +24,7 @@ struct LocaliseOptions {
   std::filesystem::path result;
   std::filesystem::path config;
   PrefixOption prefix;
+  std::optional<TiltUse> tilt;
 };
 
 // One scan's answer, and what it cost.
@@ -33,7 +34,8 @@ struct Located {
   double elapsed_ms;
 };
 
-constexpr auto kHeader = "index,state,x_m,y_m,yaw_rad,overlap,confidence,elapsed_ms\n";
+constexpr auto kHeader = "index,state,x_m,y_m,yaw_rad,overlap,confidence,elapsed_ms";
+constexpr auto kTiltHeader = ",z_m,roll_rad,pitch_rad";
 
 std::string row(const Located& located) {
   const matching::Localisation& found = located.localisation;
@@ -44,8 +46,21 @@ std::string row(const Located& located) {
     pose = fmt::format("{:.6f},{:.6f},{:.9f}", best.x_m, best.y_m, best.yaw_rad);
     overlap_ratio = found.modes.front().overlap_ratio;
   }
-  return fmt::format("{},{},{},{:.6f},{:.6f},{:.3f}\n", located.number, name(found.state), pose,
+  return fmt::format("{},{},{},{:.6f},{:.6f},{:.3f}", located.number, name(found.state), pose,
                      overlap_ratio, found.confidence, located.elapsed_ms);
+}
+
+std::string tilt_of(const Located& located) {
+  if (located.localisation.modes.empty()) return ",,,";
+  const Tilt& tilt = located.localisation.modes.front().tilt;
+  return fmt::format(",{:.6f},{:.9f},{:.9f}", tilt.z_m, tilt.roll_rad, tilt.pitch_rad);
+}
+
+std::string table_of(const std::vector<Located>& results, bool with_tilt) {
+  std::string table = kHeader + std::string(with_tilt ? kTiltHeader : "") + "\n";
+  for (const Located& located : results)
+    table += row(located) + (with_tilt ? tilt_of(located) : "") + "\n";
+  return table;
 }
 
 Located locate(matching::Localiser& localiser, const Scan& scan) {
@@ -84,16 +99,16 @@ std::string summary(const std::vector<Located>& results) {
 }
 
 int localise(const LocaliseOptions& options, Console& console) {
-  const DeskSettings settings = read_settings(options.config);
+  DeskSettings settings = read_settings(options.config);
+  if (options.tilt) settings.localiser.tilt = *options.tilt;
   FreshFile file(options.result);
   const StoredMap map = read_map(options.map, settings.mapper, console);
   matching::Localiser localiser(map.builder.map(), settings.localiser);
   ScanInput input(options.input, console, {}, options.prefix.of(options.config));
   const std::vector<Located> results = locate_all(localiser, input, console);
 
-  std::string table = kHeader;
-  for (const Located& located : results) table += row(located);
-  io::write_file_atomically(file.path(), table);
+  const bool with_tilt = settings.localiser.tilt != TiltUse::kPlanar;
+  io::write_file_atomically(file.path(), table_of(results, with_tilt));
   if (!input.omissions().empty()) console.warn("left out: " + input.omissions().summary());
   console.say(summary(results));
   return publish_or_keep_older(file, console, options.result.string());
@@ -113,6 +128,7 @@ void add_localise(CLI::App& program, Command& chosen) {
       ->required();
   command->add_option("--config", options->config, "the robot's settings (services/robot.toml)");
   options->prefix.add_to(*command);
+  add_tilt(*command, options->tilt);
   command->footer(
       "Example:\n"
       "  voxlist localise hall_map second_visit -o result.csv");

@@ -107,6 +107,11 @@ void tell_shortfall(const RunFigures& figures, Console& console) {
     if (!line.empty()) console.warn(line);
 }
 
+void tell_floor(const RunFigures& figures, Console& console) {
+  const std::string off = floor_is_off(figures);
+  if (!off.empty()) console.warn(off);
+}
+
 int map(const MapOptions& options, Console& console) {
   const DeskSettings settings = options.making.settings();
   ScanInput input(options.input, console,
@@ -128,8 +133,10 @@ int map(const MapOptions& options, Console& console) {
   Summary summary = summary_of(figures);
   describe(voxels, run.builder().poses().size(), summary);
   files.write_summary(std::move(summary));
-  if (tell_if_empty(run, console)) return 1;
-  tell_shortfall(figures, console);
+  const bool is_empty = tell_if_empty(run, console);
+  if (!is_empty) tell_shortfall(figures, console);
+  tell_floor(figures, console);
+  if (is_empty) return 1;
   return mostly_lost(figures) ? kMostlyLost : 0;
 }
 

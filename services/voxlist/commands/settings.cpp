@@ -1,6 +1,7 @@
 #include "services/voxlist/commands/settings.h"
 
 #include <CLI/CLI.hpp>
+#include <map>
 #include <stdexcept>
 
 #include "services/voxlist/live/bus_options.h"
@@ -45,6 +46,17 @@ std::string PrefixOption::of(const std::filesystem::path& settings) const {
   return option_->count() > 0 ? text_ : read_bus_options(settings, "").prefix;
 }
 
+void add_tilt(CLI::App& command, std::optional<TiltUse>& tilt) {
+  std::map<std::string, TiltUse> names;
+  for (std::size_t i = 0; i < kTiltNames.size(); ++i)
+    names[kTiltNames[i]] = static_cast<TiltUse>(i);
+  command
+      .add_option("--tilt", tilt,
+                  "planar: scans are level; refine: height, roll and pitch are found too, "
+                  "beginning with the floor; odometry: beginning with odometry's")
+      ->transform(CLI::CheckedTransformer(names, CLI::ignore_case));
+}
+
 void MakingOptions::add_to(CLI::App& command) {
   command.add_option("--config", config, "the robot's settings (services/robot.toml)");
   prefix.add_to(command);
@@ -55,12 +67,14 @@ void MakingOptions::add_to(CLI::App& command) {
   command.add_flag("--no-octomap", no_octomap, "make no map.bt");
   command.add_option("--threads", threads, "most threads; the map does not depend on it")
       ->check(CLI::Range(1, 1024));
+  add_tilt(command, tilt);
 }
 
 DeskSettings MakingOptions::settings() const {
   DeskSettings settings = read_settings(config);
   if (octomap_resolution_m > 0.0) settings.octomap.resolution_m = octomap_resolution_m;
   if (threads > 0) settings.localiser.threads = threads;
+  if (tilt) settings.localiser.tilt = *tilt;
   return settings;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "voxlist/mapping/map_builder.h"
@@ -43,6 +44,9 @@ DeskSettings read_settings(const std::filesystem::path& file);
 /// The same for the table [cloud_assembler].
 scanner::CloudAssemblerConfig read_scanner_settings(const std::filesystem::path& file);
 
+/// Adds --tilt, which overrides that of the settings. `tilt` must outlive the command.
+void add_tilt(CLI::App& command, std::optional<TiltUse>& tilt);
+
 /// Options of the commands that make maps.
 struct MakingOptions {
   std::filesystem::path config;
@@ -50,6 +54,7 @@ struct MakingOptions {
   double octomap_resolution_m = 0.0;
   bool no_octomap = false;
   int threads = 0;
+  std::optional<TiltUse> tilt;
 
   /// Adds them to a command. They must outlive it.
   void add_to(CLI::App& command);

@@ -78,8 +78,10 @@ MapRun::MapRun(const matching::LocaliserConfig& localiser, const mapping::MapBui
 void MapRun::localise(const Scan& scan) {
   note(scan);
   if (go_back(scan)) return;
-  const Localisation found = now_->localiser().localise(scan.cloud, scan.T_odom_base);
+  const Localisation found =
+      now_->localiser().localise(scan.cloud, scan.T_odom_base, scan.odometry_tilt);
   if (found.odometry_bias) odometry_bias_ = found.odometry_bias;
+  if (!floor_ && localiser_.tilt == TiltUse::kPlanar) floor_ = found.floor;
   if (found.tracking()) return take(scan, found);
   note_lost(scan, found.state);
   is_near(scan) ? wait(scan) : begin_piece(scan, found);
@@ -125,6 +127,7 @@ RunFigures MapRun::figures() const {
   figures.first_lost = first_lost_;
   figures.odometry = odometry_;
   figures.odometry_bias = odometry_bias_;
+  figures.floor = floor_;
   return figures;
 }
 
@@ -176,7 +179,8 @@ void MapRun::note_lost(const Scan& scan, LocalisationState state) {
 // Where the scan fits the piece before, the newest one's only scan was bad.
 bool MapRun::go_back(const Scan& scan) {
   if (!left_) return false;
-  const Localisation found = left_->localiser().localise(scan.cloud, scan.T_odom_base);
+  const Localisation found =
+      left_->localiser().localise(scan.cloud, scan.T_odom_base, scan.odometry_tilt);
   if (!found.tracking()) return false;
   loosen(*std::exchange(now_, std::exchange(left_, nullptr)));
   hint_.reset();
@@ -195,9 +199,10 @@ bool MapRun::is_near(const Scan& scan) const {
 // The scan belongs to no piece; at the end it is searched for.
 void MapRun::wait(const Scan& scan) {
   Piece& piece = new_piece();
-  const Localisation found = piece.localiser().localise(scan.cloud, scan.T_odom_base);
+  const Localisation found =
+      piece.localiser().localise(scan.cloud, scan.T_odom_base, scan.odometry_tilt);
   if (!found.tracking()) return erase(piece);
-  piece.take(scan.cloud, pose_of(found));
+  piece.take(scan.cloud, found.modes.front());
   loosen(piece);
 }
 
@@ -205,10 +210,11 @@ void MapRun::wait(const Scan& scan) {
 // says of it.
 void MapRun::begin_piece(const Scan& scan, const Localisation& elsewhere) {
   Piece& piece = new_piece();
-  const Localisation found = piece.localiser().localise(scan.cloud, scan.T_odom_base);
+  const Localisation found =
+      piece.localiser().localise(scan.cloud, scan.T_odom_base, scan.odometry_tilt);
   if (!found.tracking()) return erase(piece);
   Piece* const last = std::exchange(now_, &piece);
-  now_->take(scan.cloud, pose_of(found));
+  now_->take(scan.cloud, found.modes.front());
   behind_.reset();
   hint_.reset();
   if (goes_on(*last, scan.cloud.utime_us) && !elsewhere.modes.empty())
@@ -225,7 +231,7 @@ void MapRun::begin_piece(const Scan& scan, const Localisation& elsewhere) {
 
 void MapRun::take(const Scan& scan, const Localisation& found) {
   const bool is_second = !is_confirmed(*now_);
-  const bool is_keyframe = now_->take(scan.cloud, pose_of(found));
+  const bool is_keyframe = now_->take(scan.cloud, found.modes.front());
   if (is_second && left_ && !is_confirmed(*left_)) loosen(*left_);
   if (is_second) left_ = nullptr;
   if (!is_keyframe) return;
@@ -330,7 +336,7 @@ void MapRun::place_loose() {
     const Cloud cloud = spool_.read(keyframe).cloud;
     const Localisation found = map().localiser().recognise(cloud, kReturns);
     const bool sure = tells_a_place(found) && log_odds(found.confidence) >= kSureAlone;
-    if (sure) map().take(cloud, pose_of(found));
+    if (sure) map().take(cloud, found.modes.front());
     return sure;
   });
 }

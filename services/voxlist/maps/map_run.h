@@ -117,6 +117,7 @@ class MapRun {
   std::optional<LostScan> first_lost_;
   bool odometry_ = false;
   std::optional<matching::OdometryBias> odometry_bias_;
+  std::optional<matching::Floor> floor_;
 };
 
 }  // namespace voxlist::desk

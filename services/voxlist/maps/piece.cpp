@@ -25,10 +25,11 @@ Piece::Piece(const matching::LocaliserConfig& localiser, mapping::MapBuilder map
       keep_(std::move(keep)),
       localiser_(builder_.map(), localiser) {}
 
-bool Piece::take(const Cloud& cloud, const Pose2& T_piece_base) {
-  trajectory_.push_back({cloud.utime_us, to_pose3(T_piece_base)});
-  if (!builder_.wants(cloud, T_piece_base)) return false;
-  add({to_pose3(T_piece_base), cloud}, nullptr);
+bool Piece::take(const Cloud& cloud, const matching::PoseMode& found) {
+  const Pose3 T_piece_base = to_pose3(found.T_map_base, found.tilt);
+  trajectory_.push_back({cloud.utime_us, T_piece_base});
+  if (!builder_.wants(cloud, found.T_map_base, found.tilt)) return false;
+  add({T_piece_base, cloud}, nullptr);
   return true;
 }
 
@@ -41,7 +42,8 @@ void Piece::move_keyframes(const std::vector<Pose2>& T_piece_base) {
   const std::vector<StampedPose3> before = builder_.poses();
   builder_.clear();
   for (std::size_t i = 0; i < keyframes_.size(); ++i) {
-    keyframes_[i].T_map_base = to_pose3(T_piece_base[i]);
+    Pose3& pose = keyframes_[i].T_map_base;
+    pose = to_pose3(T_piece_base[i], tilt_of(pose));
     builder_.add(spool_.read(keyframes_[i]));
   }
   for (StampedPose3& placed : trajectory_) {

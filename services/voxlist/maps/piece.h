@@ -32,9 +32,9 @@ class Piece {
   /// The keyframes in the spool, in the order in which they went into the map.
   const std::vector<mapping::SpooledKeyframe>& keyframes() const { return keyframes_; }
 
-  /// Takes a scan at its pose, and adds it to the map if it tells something new. Returns whether it
-  /// did.
-  bool take(const Cloud& cloud, const Pose2& T_piece_base);
+  /// Takes a scan at the pose that was found in the piece, and adds it to the map if it tells
+  /// something new. Returns whether it did.
+  bool take(const Cloud& cloud, const matching::PoseMode& found);
 
   /// Adds a scan to the map at its pose.
   void add(Cloud cloud, const Pose3& T_piece_base);

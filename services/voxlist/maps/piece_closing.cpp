@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "voxlist/geometry/tilt.h"
 #include "voxlist/mapping/graph/pose_graph.h"
 
 namespace voxlist::desk {
@@ -30,6 +31,13 @@ Poses in_piece(const Poses& closed, const std::vector<std::size_t>& order, const
   return poses;
 }
 
+// Loops are closed in the plane, between level clouds.
+Cloud level_cloud(mapping::KeyframeSpool& spool, const mapping::SpooledKeyframe& keyframe) {
+  Cloud cloud = spool.read(keyframe).cloud;
+  const Tilt tilt = tilt_of(keyframe.T_map_base);
+  return tilt == Tilt{} ? cloud : moved(to_level(tilt), cloud);
+}
+
 }  // namespace
 
 PieceClosing close_piece(Piece& piece, mapping::KeyframeSpool& spool,
@@ -39,7 +47,7 @@ PieceClosing close_piece(Piece& piece, mapping::KeyframeSpool& spool,
   Poses before;
   for (const std::size_t i : order) before.push_back(to_pose2(keyframes[i].T_map_base));
   const mapping::MapClosing closed = mapping::close_map(
-      before, [&](std::size_t i) { return spool.read(keyframes[order[i]]).cloud; }, config);
+      before, [&](std::size_t i) { return level_cloud(spool, keyframes[order[i]]); }, config);
   PieceClosing closing{closed.loops, closed.refused};
   if (!closed.moves) return closing;
   const Poses poses = in_piece(closed.poses, order, to_pose2(keyframes.front().T_map_base));

@@ -86,6 +86,10 @@ std::string refused_loops(const RunFigures& figures) {
       figures.loops_refused);
 }
 
+std::string floor_is_off(const RunFigures& figures) {
+  return figures.floor ? what_is_off(*figures.floor) : std::string{};
+}
+
 bool mostly_lost(const RunFigures& figures) { return 2 * figures.placed < asked(figures); }
 
 }  // namespace voxlist::desk

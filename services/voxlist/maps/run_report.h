@@ -32,6 +32,10 @@ std::string closed_loops(const RunFigures& figures);
 /// One line that says which loops were not believed. Empty when there is none.
 std::string refused_loops(const RunFigures& figures);
 
+/// One line that says what is off with the floor of the first scans. Empty where it is level and at
+/// base's height, as it should be.
+std::string floor_is_off(const RunFigures& figures);
+
 /// Whether less than half was placed of the scans whose place was asked for.
 bool mostly_lost(const RunFigures& figures);
 

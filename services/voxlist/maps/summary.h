@@ -8,6 +8,7 @@
 #include <string>
 
 #include "voxlist/matching/motion/tracked_pose.h"
+#include "voxlist/matching/scan/floor.h"
 #include "voxlist/voxels/voxel_map.h"
 
 namespace voxlist::desk {
@@ -25,15 +26,16 @@ struct RunFigures {
   std::int64_t placed = 0;
   std::int64_t lost = 0;
   std::int64_t ambiguous = 0;
-  std::int64_t pieces = 0;             ///< parts of the drive that nothing joins to the map...
-  std::int64_t in_pieces = 0;          ///< ...and their scans, which have no place in it
-  std::int64_t without_pose = 0;       ///< not in the table of --use-poses
-  std::int64_t left_out = 0;           ///< could not be read
-  std::int64_t loops = 0;              ///< closed, each a look at ground of long before...
-  std::int64_t loops_refused = 0;      ///< ...and those that would have moved the past too far
-  double loops_moved_m = 0.0;          ///< how far they moved the keyframe that moved farthest
-  std::optional<LostScan> first_lost;  ///< the first that was not placed at once
-  bool odometry = false;               ///< whether there was any
+  std::int64_t pieces = 0;               ///< parts of the drive that nothing joins to the map...
+  std::int64_t in_pieces = 0;            ///< ...and their scans, which have no place in it
+  std::int64_t without_pose = 0;         ///< not in the table of --use-poses
+  std::int64_t left_out = 0;             ///< could not be read
+  std::int64_t loops = 0;                ///< closed, each a look at ground of long before...
+  std::int64_t loops_refused = 0;        ///< ...and those that would have moved the past too far
+  double loops_moved_m = 0.0;            ///< how far they moved the keyframe that moved farthest
+  std::optional<LostScan> first_lost;    ///< the first that was not placed at once
+  std::optional<matching::Floor> floor;  ///< of the first scan that shows one
+  bool odometry = false;                 ///< whether there was any
   std::optional<matching::OdometryBias> odometry_bias;  ///< what it is off by, as scans told
   Eigen::Vector3d offset_m = Eigen::Vector3d::Zero();   ///< taken off the poses of --use-poses
   double seconds = 0.0;                                 ///< of data

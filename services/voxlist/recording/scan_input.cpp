@@ -51,12 +51,13 @@ std::optional<Scan> ScanInput::take(CloudRecord& record) {
   }
   if (!times_.take(record.number, utime_us)) return std::nullopt;
   remark_on_points(record.number, record.message, *received.cloud, limits_, omissions_);
-  return Scan{record.number, std::move(*received.cloud), odometry_.at(utime_us)};
+  return Scan{record.number, std::move(*received.cloud), odometry_.at(utime_us),
+              odometry_.tilt_at(utime_us)};
 }
 
 std::optional<Scan> ScanInput::take(const OdometryRecord& record) {
   if (const auto pose = bus::from_message(record.message)) {
-    odometry_.add({pose->utime_us, to_pose2(pose->pose)});
+    odometry_.add({pose->utime_us, to_pose2(pose->pose)}, tilt_of(pose->pose));
   } else {
     omissions_.add("ODOMETRY/bad_pose", "an ODOMETRY that is no pose");
   }

@@ -10,6 +10,7 @@
 #include "services/voxlist/recording/scan_times.h"
 #include "voxlist/geometry/cloud.h"
 #include "voxlist/geometry/odometry_buffer.h"
+#include "voxlist/geometry/tilt.h"
 
 namespace voxlist::desk {
 
@@ -21,6 +22,7 @@ struct Scan {
   Cloud cloud;
   /// Odometry's pose at the scan's time, if there is odometry.
   std::optional<Pose2> T_odom_base;
+  std::optional<Tilt> odometry_tilt;  ///< where odometry measures roll and pitch
 };
 
 /// The scans of a folder or a log, one by one, as the services get them over the bus.

@@ -4,6 +4,8 @@
 
 #include <variant>
 
+#include "voxlist/geometry/angle.h"
+#include "voxlist/geometry/tilt.h"
 #include "voxlist/simulation/run/simulated_run.h"
 
 namespace voxlist::matching {
@@ -54,6 +56,23 @@ TEST(Localiser, FirstCloudDefinesTheMapFrame) {
   EXPECT_TRUE(result.tracking());
   EXPECT_EQ(result.modes.at(0).T_map_base, Pose2{});
   EXPECT_EQ(localiser.localise(Cloud{}).state, LocalisationState::kLost);
+}
+
+TEST(Localiser, ClaimsNoPoseOfACloudWhoseFloorLeans) {
+  const Drive run = drive(1, 2.0);
+  const OccupancyMap map = map_at_truth(run);
+  Localiser localiser(map);
+  ASSERT_TRUE(localiser.localise(run.clouds[0]).tracking());
+  const Tilt mount{0.0, 0.0, 10.0 * kRadPerDeg};
+  const Cloud tilted = moved(to_level(mount), run.clouds[1]);
+  const Localisation found = localiser.localise(tilted);
+  EXPECT_EQ(found.state, LocalisationState::kLost);
+  ASSERT_TRUE(found.floor);
+  EXPECT_NEAR(found.floor->lean_rad(), mount.pitch_rad, 0.5 * kRadPerDeg);
+  EXPECT_FALSE(localiser.locate(tilted).tracking());
+  const OccupancyMap none;
+  EXPECT_FALSE(Localiser(none).localise(tilted).tracking()) << "it begins no map";
+  EXPECT_TRUE(localiser.localise(run.clouds[1]).tracking()) << "it costs itself alone";
 }
 
 TEST(Localiser, ClaimsNothingFromAHandfulOfPoints) {

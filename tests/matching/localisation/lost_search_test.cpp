@@ -31,6 +31,12 @@ class OnePose : public Matcher {
     ++asked;
     return match(scan, std::nullopt);
   }
+  SpatialRefinement refined_in_space(const MatchPoints&, const Pose3& start) override {
+    SpatialRefinement refined;
+    refined.pose = start;
+    return refined;
+  }
+
   const EvidenceMap& evidence() override { return evidence_; }
   void map_grew(const ChangedBlocks&) override {}
 

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "voxlist/geometry/tilt.h"
+#include "voxlist/matching/scan/floor.h"
+#include "voxlist/voxels/occupancy_map.h"
+
+namespace voxlist::matching {
+
+/// What is known of a cloud's tilt by itself.
+struct KnownTilt {
+  /// The floor that it shows.
+  std::optional<Floor> floor;
+  /// Odometry's roll and pitch at its time.
+  std::optional<Tilt> odometry;
+};
+
+/// How a cloud is tilted against the map, before the map's surfaces are asked.
+class Levelling {
+ public:
+  /// What the tilt may be; at least one. Odometry's comes before all others.
+  std::vector<Tilt> guesses(const KnownTilt& known) const;
+
+  /// The same of a robot that may be anywhere: at the height of the map's floor, or of its origin.
+  std::vector<Tilt> guesses_anywhere(const KnownTilt& known) const;
+
+  /// The cloud that begins a map is made level; its base is at height 0.
+  static Tilt of_origin(const KnownTilt& known);
+
+  /// A cloud with that floor was surely tilted like this.
+  void learn(const Tilt& tilt, const std::optional<Floor>& floor);
+
+  /// The robot may have been carried: what is known of the last cloud says nothing of the next.
+  void forget() { last_.reset(); }
+
+  /// The map's floor, where its origin stands, as far as nothing else is known of it.
+  void look_at(const OccupancyMap& map);
+
+ private:
+  std::optional<Tilt> last_;
+  // Height of the map's floor (m).
+  std::optional<double> floor_m_;
+  bool looked_at_map_ = false;
+};
+
+/// The tilt that lays a cloud's floor onto the map's about a place; nothing where the map shows no
+/// floor there. About 5 ms.
+std::optional<Tilt> floor_on_floor(const OccupancyMap& map, const Pose2& place, const Floor& floor);
+
+}  // namespace voxlist::matching
