@@ -9,11 +9,11 @@
 
 namespace voxlist::io {
 
-/// Reads a scan from a .ply (ASCII or binary) or .pcd (v0.7: ascii, binary, binary_compressed)
-/// file. Takes x, y, z (metres, any number type) and, where there, origin_x, origin_y, origin_z;
-/// ignores the rest; drops points that are not finite. utime_us stays 0. Throws FileError on
-/// another extension or on damage, before it allocates more than a small multiple of the file's
-/// size (88-fold for compressed data).
+/// Reads a scan from a .ply (ASCII or binary), .pcd (v0.7: ascii, binary, binary_compressed) or
+/// .bin (of the KITTI data sets) file. Takes x, y, z (metres, any number type) and, where there,
+/// origin_x, origin_y, origin_z; ignores the rest; drops points that are not finite. utime_us stays
+/// 0. Throws FileError on another extension or on damage, before it allocates more than a small
+/// multiple of the file's size (88-fold for compressed data).
 Cloud read_cloud_file(const std::filesystem::path& path);
 
 /// Writes a scan, with its origins where it has them, as binary PLY, atomically. Throws FileError.

@@ -132,23 +132,29 @@ std::uint64_t numbers_per_point(const std::vector<Field>& fields) {
   return numbers;
 }
 
-PointRows point_rows(const std::vector<Field>& fields) {
+// Further columns are numbers, one a point.
+bool may_be_taken(const Field& field) {
+  return PointRows::is_point_column(field.name) || (field.count == 1 && !field.is_padding());
+}
+
+PointRows point_rows(const std::vector<Field>& fields, FurtherColumns* further) {
   std::vector<std::string> names;
   for (const Field& field : fields) {
-    names.push_back(field.name);
+    names.push_back(may_be_taken(field) ? field.name : "");
   }
-  PointRows rows(names);
+  PointRows rows(names, further);
   for (std::size_t i = 0; i < fields.size(); ++i) {
     if (rows.wants(i) && fields[i].count != 1) {
       throw FormatError(fmt::format("its field {} does not have COUNT 1", names[i]));
     }
+    if (size_of(fields[i].type) == sizeof(double)) rows.count_from_first(i);
   }
   return rows;
 }
 
 template <typename Cursor>
-Cloud read_rows(const Header& header, Cursor cursor) {
-  PointRows rows = point_rows(header.fields);
+Cloud read_rows(const Header& header, Cursor cursor, FurtherColumns* further) {
+  PointRows rows = point_rows(header.fields, further);
   if (!cursor.can_hold(header.points, bytes_per_point(header.fields),
                        numbers_per_point(header.fields))) {
     throw FormatError("announces more points than it has");
@@ -178,8 +184,8 @@ bool is_size_of(std::uint64_t size, const Header& header) {
 }
 
 // Compressed data is one column after the other: all x, then all y, ...
-Cloud read_columns(const Header& header, std::string_view data) {
-  PointRows rows = point_rows(header.fields);
+Cloud read_columns(const Header& header, std::string_view data, FurtherColumns* further) {
+  PointRows rows = point_rows(header.fields, further);
   std::vector<BinaryCursor> columns;
   for (const Field& field : header.fields) {
     const std::uint64_t bytes = header.points * field.count * size_of(field.type);
@@ -217,7 +223,7 @@ std::string unpack(std::string_view packed, std::uint32_t size) {
   throw FormatError("has damaged compressed data");
 }
 
-Cloud read_compressed(Header header, std::string_view bytes) {
+Cloud read_compressed(Header header, std::string_view bytes, FurtherColumns* further) {
   BinaryCursor sizes(bytes, std::endian::little);
   const auto packed_size = static_cast<std::uint32_t>(sizes.next(Scalar::kUint32));
   const auto size = static_cast<std::uint32_t>(sizes.next(Scalar::kUint32));
@@ -230,21 +236,21 @@ Cloud read_compressed(Header header, std::string_view bytes) {
     throw FormatError("announces more or fewer points than it has");
   }
   BinaryCursor(bytes.substr(packed_size), std::endian::little).end();
-  return read_columns(header, unpack(bytes.substr(0, packed_size), size));
+  return read_columns(header, unpack(bytes.substr(0, packed_size), size), further);
 }
 
 }  // namespace
 
-Cloud parse_pcd(std::string_view bytes) {
+Cloud parse_pcd(std::string_view bytes, FurtherColumns* further) {
   const Header header = take_header(bytes);
   if (header.encoding == "ascii") {
-    return read_rows(header, TextCursor(bytes, header.lines + 1));
+    return read_rows(header, TextCursor(bytes, header.lines + 1), further);
   }
   if (header.encoding == "binary") {
-    return read_rows(header, BinaryCursor(bytes, std::endian::little));
+    return read_rows(header, BinaryCursor(bytes, std::endian::little), further);
   }
   if (header.encoding == "binary_compressed") {
-    return read_compressed(header, bytes);
+    return read_compressed(header, bytes, further);
   }
   throw FormatError("its DATA is none of ascii, binary and binary_compressed");
 }

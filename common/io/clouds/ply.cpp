@@ -130,17 +130,20 @@ void skip_element(const Element& element, Cursor& cursor) {
   }
 }
 
-PointRows point_rows(const Element& vertex) {
+PointRows point_rows(const Element& vertex, FurtherColumns* further) {
   std::vector<std::string> names;
   for (const Property& property : vertex.properties) {
     names.push_back(property.length_type ? "" : property.name);
   }
-  return PointRows(names);
+  PointRows rows(names, further);
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (size_of(vertex.properties[i].type) == sizeof(double)) rows.count_from_first(i);
+  return rows;
 }
 
 template <typename Cursor>
-Cloud read_vertices(const Element& vertex, Cursor& cursor) {
-  PointRows rows = point_rows(vertex);
+Cloud read_vertices(const Element& vertex, Cursor& cursor, FurtherColumns* further) {
+  PointRows rows = point_rows(vertex, further);
   check_size(vertex, cursor);
   rows.reserve(vertex.rows);
   const std::uint64_t numbers = numbers_per_row(vertex);
@@ -161,11 +164,11 @@ Cloud read_vertices(const Element& vertex, Cursor& cursor) {
 
 // Elements after the vertices are read, too: what is left over then was announced by nobody.
 template <typename Cursor>
-Cloud read_body(const Header& header, Cursor cursor) {
+Cloud read_body(const Header& header, Cursor cursor, FurtherColumns* further) {
   std::optional<Cloud> cloud;
   for (const Element& element : header.elements) {
     if (element.name == "vertex" && !cloud) {
-      cloud = read_vertices(element, cursor);
+      cloud = read_vertices(element, cursor, further);
     } else {
       skip_element(element, cursor);
     }
@@ -177,16 +180,16 @@ Cloud read_body(const Header& header, Cursor cursor) {
 
 }  // namespace
 
-Cloud parse_ply(std::string_view bytes) {
+Cloud parse_ply(std::string_view bytes, FurtherColumns* further) {
   const Header header = take_header(bytes);
   if (header.format == "ascii") {
-    return read_body(header, TextCursor(bytes, header.lines + 1));
+    return read_body(header, TextCursor(bytes, header.lines + 1), further);
   }
   if (header.format == "binary_little_endian") {
-    return read_body(header, BinaryCursor(bytes, std::endian::little));
+    return read_body(header, BinaryCursor(bytes, std::endian::little), further);
   }
   if (header.format == "binary_big_endian") {
-    return read_body(header, BinaryCursor(bytes, std::endian::big));
+    return read_body(header, BinaryCursor(bytes, std::endian::big), further);
   }
   throw FormatError("has no format that is known");
 }

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "voxlist/geometry/cloud.h"
+#include "voxlist/io/clouds/raw_scan.h"
 
 namespace voxlist::io {
 
@@ -14,14 +14,21 @@ namespace voxlist::io {
 /// finite.
 class PointRows {
  public:
-  /// Throws FormatError when x, y or z is missing, or a wanted name comes twice.
-  explicit PointRows(const std::vector<std::string>& names);
+  /// Throws FormatError when x, y or z is missing, or a wanted name comes twice. With `further` it
+  /// takes all columns that have a name, and keeps rows that are not finite.
+  PointRows(const std::vector<std::string>& names, FurtherColumns* further);
+
+  /// Whether a name is that of one of the columns which are always taken.
+  static bool is_point_column(const std::string& name);
 
   /// Whether a column is one of those taken.
   bool wants(std::size_t column) const { return slots_[column].has_value(); }
 
   /// Sets a wanted column of the row at hand.
   void set(std::size_t column, double value) { row_[*slots_[column]] = value; }
+
+  /// The column's values are wider than a float: great ones are counted from the first.
+  void count_from_first(std::size_t column) { is_wide_[column] = true; }
 
   /// The row at hand is complete.
   void finish_row();
@@ -32,10 +39,15 @@ class PointRows {
   Cloud take() { return std::move(cloud_); }
 
  private:
+  void finish_further();
+
   std::vector<std::optional<std::size_t>> slots_;
+  std::vector<bool> is_wide_;
   bool has_origins_ = false;
-  std::array<double, 6> row_{};
+  std::vector<double> row_;  // x, y, z, the origin's, then the further ones
+  std::vector<double> first_;
   Cloud cloud_;
+  FurtherColumns* further_;
 };
 
 }  // namespace voxlist::io

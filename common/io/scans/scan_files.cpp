@@ -28,6 +28,12 @@ bool looks_like_scan(const fs::path& file) {
          name != "map.ply";
 }
 
+// A scan of the KITTI data sets. Such files may be anything, so others go before them.
+bool looks_like_kitti(const fs::path& file) {
+  const std::string name = lower_name(file);
+  return name.ends_with(".bin") && !name.starts_with('.');
+}
+
 bool is_named_scan(const fs::path& file) { return lower_name(file).starts_with("scan_"); }
 
 Files files_in(const fs::path& folder) {
@@ -96,6 +102,8 @@ ScanFiles find_scan_files(const fs::path& folder) {
   const Files all = files_in(folder);
   ScanFiles scans;
   std::ranges::copy_if(all, std::back_inserter(scans.files), looks_like_scan);
+  if (scans.files.empty())
+    std::ranges::copy_if(all, std::back_inserter(scans.files), looks_like_kitti);
   const Files no_files = take_out(scans.files, is_no_file);
   if (!no_files.empty())
     scans.notes.push_back(names_of(no_files) + ": no file, or a link to one that is not there");

@@ -3,12 +3,16 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <map>
 #include <string>
+#include <string_view>
 #include <utility>
 
+#include "voxlist/geometry/time_limit.h"
 #include "voxlist/io/clouds/cloud_file.h"
+#include "voxlist/io/files/cursor.h"
 #include "voxlist/io/files/file.h"
 #include "voxlist/io/files/time_in_name.h"
 #include "voxlist/io/scans/scan_files.h"
@@ -41,6 +45,24 @@ std::int64_t time_of(std::int64_t scan, const std::map<std::int64_t, std::int64_
   return after->second - step * (after->first - scan);
 }
 
+// The first n lines, in seconds.
+std::vector<std::int64_t> read_times(const fs::path& path, std::size_t n) try {
+  const std::string text = read_file(path) + '\n';
+  std::string_view rest = text;
+  std::vector<std::int64_t> utimes_us;
+  while (utimes_us.size() < n) {
+    std::string_view line = take_line(rest);
+    const double time_s = parse_number(take_word(line));
+    if (!(time_s >= 0.0 && time_s < static_cast<double>(kMaxUtime_us) * 1e-6))
+      throw FormatError("has a time that is no seconds");
+    utimes_us.push_back(std::llround(time_s * 1e6));
+  }
+  return utimes_us;
+} catch (const FormatError& error) {
+  throw FileError(path, fmt::format("{}: it must have a time in seconds for each of {} scans",
+                                    error.what(), n));
+}
+
 }  // namespace
 
 ScanFolder::ScanFolder(const fs::path& folder) {
@@ -49,6 +71,7 @@ ScanFolder::ScanFolder(const fs::path& folder) {
   notes_ = std::move(found.notes);
   rows_.rows.resize(files_.size());
   take_times_in_names();
+  take_times_of_kitti(folder);
   if (fs::exists(folder / "poses.csv")) {
     take_poses(folder / "poses.csv");
   }
@@ -79,6 +102,17 @@ void ScanFolder::take_times_in_names() {
   for (const auto& [time, file] : timed) in_names_.push_back(time.utime_us);
   time_note_ = fmt::format("the scans' times are those in their names, in {}",
                            name(timed.front().first.unit));
+}
+
+// KITTI's folder velodyne has its times beside it, or in it.
+void ScanFolder::take_times_of_kitti(const fs::path& folder) {
+  if (!in_names_.empty() || lower_case(files_.front().extension().string()) != ".bin") return;
+  for (const fs::path& path : {folder / "times.txt", folder / ".." / "times.txt"}) {
+    if (!fs::exists(path)) continue;
+    in_names_ = read_times(path, files_.size());
+    time_note_ = fmt::format("the scans' times are those of {}", path.lexically_normal().string());
+    return;
+  }
 }
 
 void ScanFolder::take_poses(const fs::path& path) {
@@ -143,6 +177,12 @@ Cloud ScanFolder::read(std::size_t scan) const {
   Cloud cloud = read_cloud_file(files_[scan]);
   cloud.utime_us = utimes_us_[scan];
   return cloud;
+}
+
+RawScan ScanFolder::read_raw(std::size_t scan) const {
+  RawScan raw = read_raw_scan(files_[scan]);
+  raw.cloud.utime_us = utimes_us_[scan];
+  return raw;
 }
 
 std::optional<Pose3> ScanFolder::truth(std::size_t scan) const {

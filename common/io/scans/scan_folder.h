@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "voxlist/geometry/cloud.h"
+#include "voxlist/io/clouds/raw_scan.h"
 #include "voxlist/io/poses/pose_file.h"
 #include "voxlist/io/scans/row_match.h"
 
@@ -14,7 +15,8 @@ namespace voxlist::io {
 /// A folder of recorded scans: scan_*.ply and scan_*.pcd, or every *.ply and *.pcd when none is
 /// named so; beside them, where there, poses.csv (truth, and the source of the scans' times; any
 /// form of read_poses) and odometry.csv. Hidden files, map.ply (which Voxlist makes) and what is no
-/// regular file are no scans.
+/// regular file are no scans. Where there are none of these, every *.bin is one, as in the folder
+/// `velodyne` of the KITTI data sets, with their times.txt beside the folder or in it.
 ///
 /// A scan's number is its position, from 0, in the natural order of the names (scan_9 before
 /// scan_10), or of the times in their names, where all have one (time_in_name). Times come from
@@ -40,6 +42,9 @@ class ScanFolder {
   /// Reads a scan and sets its time. Throws FileError.
   Cloud read(std::size_t scan) const;
 
+  /// The same with all that the file tells of each point.
+  RawScan read_raw(std::size_t scan) const;
+
   /// Where poses.csv says that the scan was taken (T_map_base), if it does.
   std::optional<Pose3> truth(std::size_t scan) const;
 
@@ -58,6 +63,7 @@ class ScanFolder {
 
  private:
   void take_times_in_names();
+  void take_times_of_kitti(const std::filesystem::path& folder);
   bool names_agree() const;
   void take_times_of_rows();
   void take_poses(const std::filesystem::path& path);
@@ -65,7 +71,7 @@ class ScanFolder {
   void check_order(const std::filesystem::path& path, std::size_t scan) const;
 
   std::vector<std::filesystem::path> files_;
-  std::vector<std::int64_t> in_names_;  // times, where all names have one
+  std::vector<std::int64_t> in_names_;  // times, where all names have one, or KITTI's times.txt
   std::vector<std::int64_t> utimes_us_;
   std::string time_note_;
   std::vector<std::string> notes_;
