@@ -281,6 +281,31 @@ TEST(CloudAdapter, GivesNoCloudWithoutAPoint) {
   EXPECT_EQ(scene.count(MessageFate::kNoPoints), 2);
 }
 
+TEST(CloudAdapter, NamesTheMessageThatACloudEndedWith) {
+  CloudAdapter adapter(standing(2));
+  RawCloud raw;
+  raw.points = {{5.0F, 0.0F, 0.0F}};
+  raw.utime_us = kStart_us + 10;
+  raw.number = 40;
+  adapter.add_cloud(0, raw);
+  raw.utime_us = kStart_us;
+  raw.number = 41;
+  EXPECT_THAT(adapter.add_cloud(1, raw).numbers, ElementsAre(40)) << "which is later";
+}
+
+TEST(CloudAdapter, AtTheEndMakesOfWhatWaitsAsMuchAsOdometryAllows) {
+  const SpinningLaser laser = tilted_laser();
+  Scene scene(with({laser.sensor}));
+  scene.odometry({}, 0.0, 0.14);
+  scene.cloud(laser.sweep(0.0));
+  scene.cloud(laser.sweep(0.1));
+  EXPECT_EQ(scene.clouds.size(), 1u);
+  scene.take(scene.adapter.finish());
+  EXPECT_EQ(scene.clouds.size(), 1u);
+  EXPECT_EQ(scene.count(MessageFate::kNoOdometry), 1);
+  EXPECT_TRUE(scene.adapter.finish().clouds.empty());
+}
+
 TEST(CloudAdapter, RefusesAMessageWhoseTimesMakeNoSense) {
   SpinningLaser laser = tilted_laser();
   laser.sensor.time_unit = TimeUnit::kSeconds;
