@@ -32,9 +32,9 @@ UncertainPose PoseTrack::predict(std::int64_t now_us,
 TrackedPose PoseTrack::moved(std::int64_t now_us, const std::optional<Pose2>& T_odom_now) const {
   TrackedPose moved = now_;
   if (by_odometry(T_odom_now))
-    moved.follow_odometry(T_odom_base_->inverse() * *T_odom_now);
+    moved.follow_odometry(T_odom_base_->inverse() * *T_odom_now, seconds_to(now_us));
   else
-    moved.move_to(guess_.pose(now_.pose(), seconds_to(now_us)));
+    guess_.follow(moved, seconds_to(now_us));
   return moved;
 }
 
@@ -45,8 +45,7 @@ double PoseTrack::seconds_to(std::int64_t now_us) const {
 Localisation PoseTrack::match(Matcher& matcher, const PreparedScan& scan,
                               const std::optional<Pose2>& T_odom_base) const {
   const std::int64_t now_us = scan.cloud().utime_us;
-  UncertainPose predicted = predict(now_us, T_odom_base);
-  if (by_odometry(T_odom_base)) predicted = scatter_.expected(predicted);
+  const UncertainPose predicted = scatter_.expected(predict(now_us, T_odom_base));
   ReachMatch reach = match_in_reach(matcher, scan, predicted, in_reach_);
   if (reach.best() < kSureInReach && !by_odometry(T_odom_base)) {
     const UncertainPose anywhere = guess_.anywhere(now_.pose(), seconds_to(now_us));
@@ -70,14 +69,13 @@ void PoseTrack::doubt(double right) {
 UncertainPose PoseTrack::advance(std::int64_t utime_us, const std::optional<Pose2>& T_odom_base,
                                  const UncertainPose& matched) {
   TrackedPose now = moved(utime_us, T_odom_base);
-  const bool measured = by_odometry(T_odom_base);
-  measured ? scatter_.correct(now, matched) : now.learn(matched);
-  const UncertainPose pose = now.pose();
-  guess_.learn(now_.pose(), pose, seconds_to(utime_us), !measured);
+  const Pose2 expected = now.pose().pose;
+  scatter_.correct(now, matched);
+  guess_.learn(now_, expected, now, seconds_to(utime_us), !by_odometry(T_odom_base));
   utime_us_ = utime_us;
   T_odom_base_ = T_odom_base;
   now_ = now;
-  return pose;
+  return now.pose();
 }
 
 bool PoseTrack::doubtful() const { return in_reach_ < kDoubtful; }

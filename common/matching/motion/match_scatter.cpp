@@ -1,6 +1,5 @@
 #include "voxlist/matching/motion/match_scatter.h"
 
-#include "voxlist/geometry/elementary.h"
 #include "voxlist/matching/motion/pose_fusion.h"
 
 namespace voxlist::matching {
@@ -17,14 +16,6 @@ const Eigen::Vector3d kLargest{0.2, 0.2, 0.05};
 // wheels slipped, and odometry is the less sure for it.
 constexpr double kByChance = 4.0;
 
-// Turns base's axes to the map's.
-Eigen::Matrix3d turn_of(const Pose2& pose) {
-  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
-  const auto [sine, cosine] = elementary::sine_cosine(pose.yaw_rad);
-  turn.topLeftCorner<2, 2>() << cosine, -sine, sine, cosine;
-  return turn;
-}
-
 }  // namespace
 
 Eigen::Vector3d MatchScatter::variances() const {
@@ -32,7 +23,7 @@ Eigen::Vector3d MatchScatter::variances() const {
 }
 
 Eigen::Matrix3d MatchScatter::covariance(const Pose2& pose) const {
-  const Eigen::Matrix3d turn = turn_of(pose);
+  const Eigen::Matrix3d turn = planar_turn(pose.yaw_rad);
   return turn * variances().asDiagonal() * turn.transpose();
 }
 
@@ -41,15 +32,13 @@ UncertainPose MatchScatter::expected(const UncertainPose& guess) const {
 }
 
 void MatchScatter::correct(TrackedPose& moved, const UncertainPose& matched) {
-  UncertainPose guess = moved.pose();
-  const UncertainPose prior = expected(guess);
-  const Eigen::Matrix3d to_base = turn_of(guess.pose).transpose();
+  const UncertainPose guess = moved.pose(), prior = expected(guess);
+  const Eigen::Matrix3d to_base = planar_turn(guess.pose.yaw_rad).transpose();
   learn(to_base * difference(matched.pose, guess.pose) - off_);
   const double surprise = mahalanobis2(matched.pose, expected(guess)) / (kByChance * kByChance);
-  if (surprise > 1.0) guess.covariance *= surprise;
-  const UncertainPose pose = fused(guess, prior, matched, covariance(guess.pose));
+  if (surprise > 1.0) moved.doubt(surprise);
+  const UncertainPose pose = fused(moved.pose(), prior, matched, covariance(guess.pose));
   off_ = to_base * difference(matched.pose, pose.pose);
-  moved.move_to(guess);
   moved.learn(pose);
 }
 

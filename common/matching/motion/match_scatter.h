@@ -8,17 +8,17 @@
 namespace voxlist::matching {
 
 /// What matches scatter by beside what they claim, from one scan to the next: a laser's rings hit
-/// other spots of cars and leaves each time, clouds and odometry have other clocks. Odometry tells:
-/// where it errs, each of its ways errs by itself; where a match is off, the way to it is too long
-/// and the next one too short. So the variance of that is the negative covariance of one difference
-/// of odometry and matches with the next (Mehra, "On the identification of variances and adaptive
-/// Kalman filtering", 1970).
+/// other spots of cars and leaves each time, clouds and odometry have other clocks, a mast sways.
+/// Odometry tells, and without it the velocity: where they err, each of their ways errs by itself;
+/// where a match is off, the way to it is too long and the next one too short. So the variance of
+/// that is the negative covariance of one difference of guess and match with the next (Mehra, "On
+/// the identification of variances and adaptive Kalman filtering", 1970).
 class MatchScatter {
  public:
-  /// Where a match should be, and how sure that is: odometry's guess and the scatter.
+  /// Where a match should be, and how sure that is: the guess and the scatter.
   UncertainPose expected(const UncertainPose& guess) const;
 
-  /// Corrects a pose that odometry moved by a match, each as far as it can be trusted, and learns
+  /// Corrects a pose that was moved on by a match, each as far as it can be trusted, and learns
   /// what both err by. `matched`: what expected() and the scan gave together.
   void correct(TrackedPose& moved, const UncertainPose& matched);
 

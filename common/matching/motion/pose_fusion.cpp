@@ -4,6 +4,8 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
+#include "voxlist/geometry/elementary.h"
+
 namespace voxlist::matching {
 namespace {
 
@@ -21,6 +23,13 @@ Eigen::Matrix3d told_beside(const Eigen::Matrix3d& prior, const Eigen::Matrix3d&
 
 Eigen::Vector3d difference(const Pose2& a, const Pose2& b) {
   return {a.x_m - b.x_m, a.y_m - b.y_m, wrap_angle(a.yaw_rad - b.yaw_rad)};
+}
+
+Eigen::Matrix3d planar_turn(double angle_rad) {
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  const auto [sine, cosine] = elementary::sine_cosine(angle_rad);
+  turn.topLeftCorner<2, 2>() << cosine, -sine, sine, cosine;
+  return turn;
 }
 
 UncertainPose fused(const UncertainPose& predicted, const UncertainPose& prior,

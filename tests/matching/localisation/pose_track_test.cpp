@@ -26,9 +26,9 @@ PoseTrack after_a_step(const std::optional<Pose2>& T_odom_base = std::nullopt) {
 
 double sigma_x_m(const UncertainPose& pose) { return std::sqrt(pose.covariance(0, 0)); }
 
-void expect_at(const Pose2& pose, const Pose2& expected) {
-  EXPECT_LT(distance_m(pose, expected), 1e-9);
-  EXPECT_LT(turn_rad(pose, expected), 1e-9);
+void expect_at(const Pose2& pose, const Pose2& expected, double tolerance = 1e-9) {
+  EXPECT_LT(distance_m(pose, expected), tolerance);
+  EXPECT_LT(turn_rad(pose, expected), tolerance);
 }
 
 TEST(PoseTrack, ExpectsTheRobotWithinItsSpeedBeforeItHasTakenAStep) {
@@ -47,7 +47,7 @@ TEST(PoseTrack, ExpectsAnotherStepLikeTheLast) {
 
 TEST(PoseTrack, ExpectsAsMuchOfAStepAsTheTimeAllows) {
   expect_at(after_a_step().predict(kStep_us + kStep_us / 2, std::nullopt).pose,
-            kStep * part_of(kStep, 0.5));
+            kStep * part_of(kStep, 0.5), 1e-3);
 }
 
 TEST(PoseTrack, ExpectsNoStepAfterALongPause) {

@@ -63,7 +63,7 @@ TEST(TrackedPose, LearnsWhatOdometryIsOffBy) {
   Pose2 truth;
   for (int i = 0; i < 40; ++i) {
     truth = truth * kStep;
-    track.follow_odometry(told(kStep));
+    track.follow_odometry(told(kStep), 1.0);
     track.learn(match(track.pose(), known(truth, 0.003)));
   }
   const OdometryBias bias = track.odometry();
@@ -71,7 +71,7 @@ TEST(TrackedPose, LearnsWhatOdometryIsOffBy) {
   EXPECT_NEAR(bias.heading_rad, kMount_rad, 0.004);
   EXPECT_LT(bias.scale_sigma, 0.01);
   // A way that no scan tells of is the better known for it.
-  track.follow_odometry(told({10.0, 0.0, 0.0}));
+  track.follow_odometry(told({10.0, 0.0, 0.0}), 20.0);
   const Pose2 there = truth * Pose2{10.0, 0.0, 0.0};
   EXPECT_LT(distance_m(track.pose().pose, there), 0.1);
   EXPECT_LT(mahalanobis2(there, track.pose()), 9.0);
@@ -79,7 +79,7 @@ TEST(TrackedPose, LearnsWhatOdometryIsOffBy) {
 
 TEST(TrackedPose, IsAsUnsureOfALongWayAsItsOdometry) {
   TrackedPose track(known({}, 0.001));
-  track.follow_odometry({10.0, 0.0, 0.0});
+  track.follow_odometry({10.0, 0.0, 0.0}, 20.0);
   EXPECT_NEAR(std::sqrt(track.pose().covariance(0, 0)), 0.2, 0.05);
   EXPECT_NEAR(std::sqrt(track.pose().covariance(1, 1)), 0.3, 0.05);
 }
@@ -92,7 +92,7 @@ struct Drive {
 
   void step(const Pose2& way, const Pose2& off) {
     truth = truth * kStep;
-    track.follow_odometry(way);
+    track.follow_odometry(way, 1.0);
     const Pose2 seen{truth.x_m + off.x_m, truth.y_m + off.y_m, truth.yaw_rad};
     scatter.correct(track, match(scatter.expected(track.pose()), known(seen, 0.003)));
   }
