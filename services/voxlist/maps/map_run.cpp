@@ -58,6 +58,14 @@ bool goes_on(const Piece& piece, std::int64_t utime_us) {
   return 2 * (utime_us - last_us) <= 3 * usual_us;
 }
 
+// Whether a scan fits where the robot is followed, and only what is in sight does not hold it in
+// some direction, along a street: the next scans will, or the whole belief fades. It is not
+// searched for at the end: what did not hold it then may seem to hold it elsewhere.
+bool is_followed(const Localisation& found) {
+  return found.confidence >= matching::kSureInReach &&
+         worst_sigma_m(found.modes.front().covariance) < kNear_m / 3.0;
+}
+
 bool same(const Pose2& a, const Pose2& b) {
   return distance_m(a, b) < kSame_m && turn_rad(a, b) < kSame_rad;
 }
@@ -84,6 +92,7 @@ void MapRun::localise(const Scan& scan) {
   if (!floor_ && localiser_.tilt == TiltUse::kPlanar) floor_ = found.floor;
   if (found.tracking()) return take(scan, found);
   note_lost(scan, found.state);
+  if (is_followed(found)) return;
   is_near(scan) ? wait(scan) : begin_piece(scan, found);
 }
 
