@@ -19,8 +19,8 @@ constexpr double kNear_m = 30.0;
 constexpr std::size_t kFewestOthers = 3;
 constexpr double kLeastShare = 0.6;
 // So many of those that agree must be right by what their scans show alone, in the mean. Right
-// looks at ground that they hardly saw came to 0.27; wrong ones of 110 pairs of places that have
-// nothing in common, which agreed by chance, to 0.03.
+// looks at ground that they hardly saw came to 0.27; the three groups of wrong ones that were seen
+// to agree by chance, between places that have nothing in common, to 0.03. All on one recording.
 constexpr double kLeastRight = 0.1;
 
 bool is_allowed(const PoseTree& tree, const PoseEdge& edge) {

@@ -3,13 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "voxlist/geometry/elementary.h"
+
 namespace voxlist {
 namespace {
 
 constexpr double kLowest = -2.0, kHighest = 3.5;
 constexpr int kMostCounts = 15;
 
-double logit(double probability) { return std::log(probability / (1.0 - probability)); }
+double logit(double probability) { return elementary::log(probability / (1.0 - probability)); }
 
 // One pass in so many counts.
 CounterRule rule_of(double hit, double pass, int counts) {

@@ -53,13 +53,14 @@ class Robot {
 
 void print_wrong(const DriveSpec& spec, int seed, int i, std::size_t scan,
                  const matching::Localisation& result, const Pose2& truth, const PoseError& error) {
-  const auto& [pose, covariance, overlap, support, probability] = result.modes.front();
+  const matching::PoseMode& mode = result.modes.front();
+  const Pose2& pose = mode.T_map_base;
   std::printf(
       "  wrong: %s, seed %d, drive %d, scan %zu: claimed %.3f %.3f %.4f, true %.3f %.3f %.4f; "
       "off %.3f m, %.1f sigma of %.3f %.3f m; probability %.4f\n",
       spec.name.c_str(), seed, i, scan, pose.x_m, pose.y_m, pose.yaw_rad, truth.x_m, truth.y_m,
-      truth.yaw_rad, error.off_m, error.sigmas, std::sqrt(covariance(0, 0)),
-      std::sqrt(covariance(1, 1)), probability);
+      truth.yaw_rad, error.off_m, error.sigmas, std::sqrt(mode.covariance(0, 0)),
+      std::sqrt(mode.covariance(1, 1)), mode.probability);
 }
 
 void count(const matching::Localisation& result, const PoseError& error, bool bad,
