@@ -31,12 +31,12 @@ bool MotionGuess::knows_velocity(double dt_s) const {
 
 void MotionGuess::follow(TrackedPose& pose, double dt_s) const {
   const double time_s = std::max(dt_s, kShortestStep_s);
-  const Eigen::Vector3d unknown = unknown_velocity(time_s);
-  if (!knows_velocity(time_s)) pose.forget_velocity(unknown);
-  const Eigen::Vector3d steady(kSteady_m, kSteady_m, kSteady_rad);
+  const Eigen::Vector3d unknown = unknown_velocity(time_s),
+                        steady(kSteady_m, kSteady_m, kSteady_rad);
   const Eigen::Vector3d change =
       steady / time_s + time_s * Eigen::Vector3d(acceleration_, acceleration_, turn_acceleration_);
-  // It is never vaguer than the fastest robot's.
+  // It is never vaguer than the fastest robot's, and is forgotten where it may have changed so far.
+  if (!knows_velocity(time_s) || change.x() >= unknown.x()) pose.forget_velocity(unknown);
   const Eigen::Vector3d most =
       (unknown.cwiseAbs2() - pose.velocity_variances()).cwiseMax(0.0).cwiseSqrt();
   pose.go_on(time_s, change.cwiseMin(most));
