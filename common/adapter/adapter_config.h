@@ -12,7 +12,7 @@ enum class TimeUnit { kSeconds, kMilliseconds, kMicroseconds, kNanoseconds };
 /// Which of a message's points was measured at its utime.
 enum class UtimeOf { kTimeZero, kFirst, kMiddle, kLast };
 
-/// In which order the points of a sweep at constant rate were measured.
+/// The order in which a laser measures the points of a sweep at constant rate.
 enum class SweepOrder { kRows, kClockwise, kCounterclockwise };
 
 /// One laser: what it says, and where it sits.

@@ -11,7 +11,7 @@ namespace voxlist::adapter {
 struct AdapterFinding {
   /// One word, the same for the same fault.
   std::string key;
-  /// For a person: what, and what to do.
+  /// The sentence tells a person what is wrong, and what to do.
   std::string sentence;
   /// Whether the message was of no use.
   bool is_error = false;

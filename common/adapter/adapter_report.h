@@ -48,7 +48,7 @@ struct Adapted {
   std::vector<Cloud> clouds;
   std::vector<Cloud> slices;
 
-  /// For each of `clouds`, the number of the message whose last point is its latest.
+  /// The number of the message that holds the latest point, one number for each of `clouds`.
   std::vector<std::int64_t> numbers;
 
   /// One for each sensor.

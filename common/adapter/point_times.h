@@ -29,7 +29,7 @@ struct PointTimes {
 /// what is farther is in another unit.
 inline constexpr double kMaxOffset_s = 5.0;
 
-/// From the message's own times, or at constant rate.
+/// Tells when each point was measured: by the message's own times, or at constant rate.
 PointTimes point_times(const RawCloud& raw, const SensorConfig& sensor);
 
 }  // namespace voxlist::adapter

@@ -13,7 +13,8 @@ struct RawCloud {
   /// Whatever the caller counts by; handed through to the cloud that this one completes.
   std::int64_t number = 0;
 
-  /// In the sensor's frame (m). Not finite, or 0,0,0: nothing came back.
+  /// Where each point lies in the sensor's frame (m). One that is not finite, or 0,0,0, is a ray
+  /// that did not come back.
   std::vector<Eigen::Vector3f> points;
 
   /// When each point was measured, in the publisher's unit; empty: it does not tell.

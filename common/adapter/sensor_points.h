@@ -38,7 +38,7 @@ struct TimedPoints {
   PointCounts counts{};
 };
 
-/// From what a sensor says to points in base.
+/// Turns what a sensor says into points in base.
 class SensorPoints {
  public:
   /// Throws std::invalid_argument, with the setting's name, when the ranges leave nothing.

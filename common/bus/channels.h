@@ -36,15 +36,17 @@ inline constexpr Channel<planar_lidar_t> kLaser{"LASER"};
 inline constexpr Channel<mirror_state_t> kMirror{"MIRROR"};
 
 /// One whole 3D scan. Frame: base, at the sweep's end. Rate: about 1 Hz.
-/// From cloud_assembler or cloud_adapter (or any 3D laser) to localiser, mapper, obstacle_detector.
+/// It goes from cloud_assembler or cloud_adapter (or any 3D laser) to localiser, mapper and
+/// obstacle_detector.
 inline constexpr Channel<pointcloud_t> kCloud{"CLOUD"};
 
 /// A part of a sweep, for low latency. Frame: base, at the part's end. Rate: about 15 Hz.
-/// From cloud_assembler or cloud_adapter to obstacle_detector.
+/// It goes from cloud_assembler or cloud_adapter to obstacle_detector.
 inline constexpr Channel<pointcloud_t> kCloudSlice{"CLOUD_SLICE"};
 
 /// Dead reckoning. Frame: odom (drifts, never jumps). Rate: 20-100 Hz.
-/// From the robot base (or a simulator, or a recording) to cloud_assembler, cloud_adapter, localiser.
+/// From the robot base (or a simulator, or a recording) to cloud_assembler, cloud_adapter,
+/// localiser.
 inline constexpr Channel<pose_t> kOdometry{"ODOMETRY"};
 
 /// Where the robot is, only while TRACKING. Frame: map (may jump). Rate: each cloud, and odometry's

@@ -13,8 +13,8 @@
 
 namespace voxlist::matching {
 
-/// The last pose that is known, and what is known of the motion since: by odometry, or by the step
-/// that led there. It outlives scans that fit nowhere: the motion since grows, and so does the
+/// The last pose that is known, and what is known of the motion since: by odometry, or by its
+/// velocity. It outlives scans that fit nowhere: the motion since grows, and so does the
 /// doubt.
 class PoseTrack {
  public:
