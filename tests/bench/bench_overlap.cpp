@@ -8,8 +8,8 @@
 #include "tests/bench/report.h"
 #include "tests/bench/scene.h"
 #include "tests/bench/test_floor.h"
-#include "tests/matching/counting/instruction_sets.h"
 #include "tests/matching/counting/overlap_rows.h"
+#include "tests/system/instruction_sets.h"
 #include "voxlist/matching/paper/overlap.h"
 #include "voxlist/voxels/occupancy_list.h"
 
@@ -145,7 +145,7 @@ void add_one(const std::string& name, const Inputs& (*inputs)(), Kernel kernel) 
 void add_scene(const std::string& scene_name, const Inputs& (*inputs)()) {
   add_one(scene_name + "hash_set", inputs, by_hash_set);
   add_one(scene_name + "voxel_map", inputs, by_voxel_map);
-  for (const matching::Instructions instructions : matching::instruction_sets()) {
+  for (const Instructions instructions : instruction_sets()) {
     const auto by_rows = [instructions](const Inputs& in, Counts& counts) {
       overlap_rows(in.rows, in.scan, in.block, instructions, counts);
     };

@@ -1,9 +1,6 @@
 #include "voxlist/matching/counting/coarse_sweep.h"
 
-#include <algorithm>
-#include <cstdlib>
 #include <string>
-#include <string_view>
 
 #include "voxlist/matching/counting/coarse_sweep_kernel.h"
 #include "voxlist/system/check.h"
@@ -19,27 +16,7 @@ std::size_t words_of(Instructions instructions) {
   return instructions == Instructions::kAvx512 ? 8 : instructions == Instructions::kAvx2 ? 4 : 1;
 }
 
-Instructions fastest() {
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
-      __builtin_cpu_supports("avx512bw"))
-    return Instructions::kAvx512;
-  if (__builtin_cpu_supports("avx2")) return Instructions::kAvx2;
-  return Instructions::kPortable;
-}
-
-Instructions most_wanted() {
-  const char* name = std::getenv("VOXLIST_INSTRUCTIONS");
-  if (name == nullptr) return Instructions::kAvx512;
-  if (std::string_view(name) == "portable") return Instructions::kPortable;
-  return std::string_view(name) == "avx2" ? Instructions::kAvx2 : Instructions::kAvx512;
-}
-
 }  // namespace
-
-Instructions best_instructions() {
-  static const Instructions best = std::min(fastest(), most_wanted());
-  return best;
-}
 
 NodeCounts coarse_sweep(const CoarseMap& map, std::vector<std::int64_t> bits,
                         Instructions instructions) {

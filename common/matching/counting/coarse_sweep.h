@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "voxlist/matching/counting/coarse_map.h"
+#include "voxlist/system/instructions.h"
 
 namespace voxlist::matching {
 
@@ -17,13 +18,6 @@ struct NodeCounts {
   std::size_t words = 0;  ///< words of a plane
   std::vector<std::uint64_t> planes;
 };
-
-/// Which instructions are used; all give the same counts.
-enum class Instructions { kPortable, kAvx2, kAvx512 };
-
-/// The fastest that this processor has, or slower ones that VOXLIST_INSTRUCTIONS names (portable,
-/// avx2): a test compares the maps that each makes.
-Instructions best_instructions();
 
 /// Counts the cells that fall on marked ones, for every translation of the map by whole coarse
 /// cells. A cell is given as its bit at translation (0, 0), CoarseMap::bit(). Precondition: at most

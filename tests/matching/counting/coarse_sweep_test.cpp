@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "tests/matching/counting/instruction_sets.h"
+#include "tests/system/instruction_sets.h"
 
 namespace voxlist::matching {
 namespace {

@@ -7,7 +7,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "tests/matching/counting/instruction_sets.h"
+#include "tests/system/instruction_sets.h"
 #include "voxlist/matching/paper/overlap.h"
 
 namespace voxlist::matching {

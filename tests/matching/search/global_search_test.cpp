@@ -8,8 +8,8 @@
 #include <limits>
 #include <stdexcept>
 
-#include "tests/matching/counting/instruction_sets.h"
 #include "tests/matching/search/lattice_world.h"
+#include "tests/system/instruction_sets.h"
 
 namespace voxlist::matching {
 namespace {

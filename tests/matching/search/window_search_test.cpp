@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "tests/matching/counting/instruction_sets.h"
 #include "tests/matching/synthetic_room.h"
+#include "tests/system/instruction_sets.h"
 #include "voxlist/matching/engines/matcher.h"
 
 namespace voxlist::matching {

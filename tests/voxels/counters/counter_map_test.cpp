@@ -9,6 +9,7 @@
 #include <set>
 #include <vector>
 
+#include "tests/system/instruction_sets.h"
 #include "tests/voxels/counters/exact_walk.h"
 
 namespace voxlist {
@@ -115,10 +116,8 @@ TEST(CounterMap, IsTheSameWithAllInstructions) {
   const std::vector<Scan> all = scans(10, 1000, 20.0);
   const std::uint64_t hash = map_of(all, rules(), Instructions::kPortable).hash();
   EXPECT_NE(hash, CounterMap(kResolution_m).hash());
-  for (const Instructions wider : {Instructions::kAvx2, Instructions::kAvx512}) {
-    if (wider > best_instructions()) continue;
+  for (const Instructions wider : instruction_sets())
     EXPECT_EQ(map_of(all, rules(), wider).hash(), hash) << static_cast<int>(wider);
-  }
 }
 
 TEST(CounterMap, CountsACellOnceAScanAndAHitBeforeAPass) {

@@ -6,6 +6,7 @@
 #include <set>
 #include <vector>
 
+#include "tests/system/instruction_sets.h"
 #include "tests/voxels/counters/exact_walk.h"
 #include "voxlist/voxels/counters/cell_store.h"
 #include "voxlist/voxels/voxel_ray.h"
@@ -19,13 +20,6 @@ constexpr int kSides[3] = {kBoxBits - 3, 8, 7};
 constexpr int kBlockBits = kSides[0] + kSides[1] + kSides[2];
 constexpr int kShifts[3] = {kBlockKeyBits, kBlockKeyBits + kSides[0],
                             kBlockKeyBits + kSides[0] + kSides[1]};
-
-std::vector<Instructions> instructions_here() {
-  std::vector<Instructions> all{Instructions::kPortable};
-  if (best_instructions() >= Instructions::kAvx2) all.push_back(Instructions::kAvx2);
-  if (best_instructions() >= Instructions::kAvx512) all.push_back(Instructions::kAvx512);
-  return all;
-}
 
 RayJob job_of(const std::vector<FixedRay>& rays, CellStore& store) {
   return {rays.data(), rays.size(), {kShifts[0], kShifts[1], kShifts[2]}, &store.bits()};
@@ -91,7 +85,7 @@ class RandomRays {
 
 void expect_exact(const FixedRay& ray, Marked& marked) {
   const std::set<Voxel> expected = exact_walk(ray);
-  for (const Instructions instructions : instructions_here())
+  for (const Instructions instructions : instruction_sets())
     ASSERT_EQ(marked.cells({ray}, instructions), expected)
         << static_cast<int>(instructions) << ": " << ray.from[0] << ' ' << ray.from[1] << ' '
         << ray.from[2] << " to " << ray.to[0] << ' ' << ray.to[1] << ' ' << ray.to[2];
@@ -127,7 +121,7 @@ TEST(MarkRays, MarksTheSameEitherWay) {
     FixedRay back;
     std::copy(ray.from, ray.from + 3, back.to);
     std::copy(ray.to, ray.to + 3, back.from);
-    for (const Instructions instructions : instructions_here())
+    for (const Instructions instructions : instruction_sets())
       ASSERT_EQ(marked.cells({ray}, instructions), marked.cells({back}, instructions));
   }
 }
@@ -171,13 +165,13 @@ TEST(MarkRays, GoesFromEndToEndOfTheBoxTheSameWithAllInstructions) {
       faces += static_cast<std::size_t>(
           std::abs((ray.to[axis] >> kFractionBits) - (ray.from[axis] >> kFractionBits)));
     EXPECT_EQ(expected.size(), faces);
-    for (const Instructions instructions : instructions_here())
+    for (const Instructions instructions : instruction_sets())
       ASSERT_EQ(marked.cells({ray}, instructions), expected);
   }
 }
 
 TEST(MarkRays, SaysWhenBlocksFindNoRoom) {
-  for (const Instructions instructions : instructions_here()) {
+  for (const Instructions instructions : instruction_sets()) {
     CellStore store;
     store.begin(kBlockBits, 3);
     std::vector<FixedRay> ray{{{0, 0, 0}, {(24 << kFractionBits) - 1, 0, 0}}};

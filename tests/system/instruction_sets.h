@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "voxlist/matching/counting/coarse_sweep.h"
+#include "voxlist/system/instructions.h"
 
-namespace voxlist::matching {
+namespace voxlist {
 
 /// All instructions that this processor has.
 inline std::vector<Instructions> instruction_sets() {
@@ -14,4 +14,4 @@ inline std::vector<Instructions> instruction_sets() {
   return sets;
 }
 
-}  // namespace voxlist::matching
+}  // namespace voxlist
