@@ -57,17 +57,19 @@ settings_in_use() {
 }
 
 # read_bus CONFIG: sets lcm_url and prefix as the services with these settings have them; of "" as those in use. Sets
-# desk to the program voxlist, or to nothing.
+# lasers to "|NAME" for each channel of cloud_adapter's sensors, and desk to the program voxlist, or to nothing.
 read_bus() {
   local config=${1:-$(settings_in_use)} told
   lcm_url=${LCM_DEFAULT_URL:-udpm://239.255.76.67:7667?ttl=0}
   prefix=
+  lasers=
   desk=${VOXLIST_BIN_DIR:-$root/build/bin}/voxlist
   [[ -x $desk ]] || desk=$(command -v voxlist) || desk=
   if [[ -n $desk ]]; then
     told=$("$desk" bus ${config:+--config "$config"}) || exit 1
     lcm_url=$(sed -n 's/^url //p' <<<"$told")
     prefix=$(sed -n 's/^prefix //p' <<<"$told")
+    lasers=$(sed -n 's/^laser /|/p' <<<"$told" | tr -d '\n')
   elif [[ -n ${1:-} ]] || grep -Eqs '^[[:space:]]*(bus\.)?(url|prefix)[[:space:]]*=' "$config"; then
     fail "$config cannot be read without the program voxlist; scripts/build makes it"
   fi

@@ -77,7 +77,7 @@ int extend(const ExtendOptions& options, Console& console) {
   refuse_without_map(options.folder);
   ScanInput input(options.input, console,
                   {settings.mapper.min_range_m, settings.mapper.max_range_m},
-                  options.making.prefix.of(options.making.config));
+                  options.making.prefix.of(options.making.config), settings.adapter);
   OpenMap open(options.folder, settings.mapper, console);
   StoredMap before = open.take_map();
   mapping::KeyframeSpool spool(options.folder);

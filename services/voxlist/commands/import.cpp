@@ -1,6 +1,8 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cctype>
 #include <memory>
 
 #include "services/voxlist/commands/command.h"
@@ -8,6 +10,7 @@
 #include "services/voxlist/output/progress.h"
 #include "services/voxlist/output/stop.h"
 #include "services/voxlist/recording/recording.h"
+#include "voxlist/bus/cloud_view.h"
 #include "voxlist/bus/event_log.h"
 #include "voxlist/io/files/file.h"
 
@@ -17,6 +20,7 @@ namespace {
 struct ImportOptions {
   std::filesystem::path scans;
   std::filesystem::path log;
+  std::string channel;  // empty: scans are in base
 };
 
 // How many messages of each kind a log got.
@@ -36,6 +40,11 @@ class Importer {
   }
   void operator()(const TruthRecord& record) {
     written_.truths += write(bus::kTruth, record.message);
+  }
+
+  void operator()(const RawRecord& record) {
+    log_.write(record.channel, bus::CloudView(record.bytes).utime_us(), record.bytes);
+    ++written_.scans;
   }
 
   void close() { log_.close(); }
@@ -61,14 +70,29 @@ class Importer {
   Written written_;
 };
 
+// As a bus takes it, and no channel that means something else.
+std::string is_channel(const std::string& name) {
+  const bool plain = !name.empty() && name.size() <= bus::kMaxChannelName &&
+                     std::ranges::all_of(name, [](unsigned char c) {
+                       return std::isalnum(c) || c == '_' || c == '-' || c == '/';
+                     });
+  if (!plain) return "a channel may only hold letters, digits, _ - and /";
+  return name == bus::kCloud.name || name == bus::kOdometry.name || name == bus::kTruth.name
+             ? name + " means something else: give the laser a channel of its own"
+             : "";
+}
+
 std::string summary(const ImportOptions& options, const Written& written) {
-  return fmt::format("{}: {} CLOUD, {} ODOMETRY, {} TRUTH", options.log.string(), written.scans,
-                     written.odometry, written.truths);
+  return fmt::format("{}: {} {}, {} ODOMETRY, {} TRUTH", options.log.string(), written.scans,
+                     options.channel.empty() ? "CLOUD" : options.channel, written.odometry,
+                     written.truths);
 }
 
 int import_scans(const ImportOptions& options, Console& console) {
   Omissions omissions(console);
-  const auto folder = open_folder_recording(options.scans, omissions);
+  const auto folder =
+      open_folder_recording(options.scans, omissions,
+                            options.channel.empty() ? RawChannels() : RawChannels{options.channel});
   FreshFile file(options.log);
   Importer importer(file.path(), omissions);
   {
@@ -103,9 +127,15 @@ void add_import(CLI::App& program, Command& chosen) {
       ->required();
   command->add_option("-o,--output", options->log, "the log to write; an old one is replaced")
       ->required();
+  command
+      ->add_option("--channel", options->channel,
+                   "for scans in the laser's own frame: the channel for them, with all that their "
+                   "files tell of each point (time, ring, intensity), for cloud_adapter")
+      ->check(is_channel);
   command->footer(
-      "Example:\n"
-      "  voxlist import hall -o hall.lcmlog && scripts/replay hall.lcmlog");
+      "Examples:\n"
+      "  voxlist import hall -o hall.lcmlog && scripts/replay hall.lcmlog\n"
+      "  voxlist import raw_scans -o raw.lcmlog --channel VELODYNE");
   command->callback([options, &chosen] {
     chosen = [options](Console& console) { return import_scans(*options, console); };
   });

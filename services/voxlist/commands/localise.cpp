@@ -104,7 +104,7 @@ int localise(const LocaliseOptions& options, Console& console) {
   FreshFile file(options.result);
   const StoredMap map = read_map(options.map, settings.mapper, console);
   matching::Localiser localiser(map.builder.map(), settings.localiser);
-  ScanInput input(options.input, console, {}, options.prefix.of(options.config));
+  ScanInput input(options.input, console, {}, options.prefix.of(options.config), settings.adapter);
   const std::vector<Located> results = locate_all(localiser, input, console);
 
   const bool with_tilt = settings.localiser.tilt != TiltUse::kPlanar;

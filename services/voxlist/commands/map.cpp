@@ -116,7 +116,7 @@ int map(const MapOptions& options, Console& console) {
   const DeskSettings settings = options.making.settings();
   ScanInput input(options.input, console,
                   {settings.mapper.min_range_m, settings.mapper.max_range_m},
-                  options.making.prefix.of(options.making.config));
+                  options.making.prefix.of(options.making.config), settings.adapter);
   if (!options.force) refuse_robots_map(options.folder);
   MapFiles files(options.folder);
   const FileLock lock = mapping::lock_folder(options.folder);

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "services/voxlist/live/bus_options.h"
+#include "voxlist/adapter/cloud_adapter.h"
 #include "voxlist/config/config.h"
 #include "voxlist/config/tables.h"
 
@@ -20,13 +21,28 @@ void read(const std::filesystem::path& file, const std::vector<config::Section>&
   if (!all.empty()) throw std::runtime_error(all);
 }
 
+// What no table of ranges tells.
+void check_adapter(const std::filesystem::path& file, const adapter::AdapterConfig& config) try {
+  if (!config.sensors.empty()) adapter::CloudAdapter{config};
+} catch (const std::invalid_argument& error) {
+  throw std::runtime_error(file.string() + ": [cloud_adapter] " + error.what());
+}
+
 }  // namespace
 
 DeskSettings read_settings(const std::filesystem::path& file) {
   DeskSettings settings;
   read(file, {config::shared_section("localiser", settings.localiser),
               config::shared_section("mapper", settings.mapper),
-              config::shared_section("octomap_export", settings.octomap)});
+              config::shared_section("octomap_export", settings.octomap),
+              config::section("cloud_adapter", settings.adapter)});
+  check_adapter(file, settings.adapter);
+  return settings;
+}
+
+adapter::AdapterConfig read_adapter_settings(const std::filesystem::path& file) {
+  adapter::AdapterConfig settings;
+  read(file, {config::section("cloud_adapter", settings)});
   return settings;
 }
 

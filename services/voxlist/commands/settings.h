@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "voxlist/adapter/adapter_config.h"
 #include "voxlist/mapping/map_builder.h"
 #include "voxlist/matching/localisation/localiser.h"
 #include "voxlist/planning/octomap.h"
@@ -21,6 +22,8 @@ struct DeskSettings {
   matching::LocaliserConfig localiser;
   mapping::MapBuilderConfig mapper;
   planning::OctomapConfig octomap;
+  /// No sensors: scans are in base already.
+  adapter::AdapterConfig adapter;
 };
 
 /// The robot's prefix before each channel's name in a log: --prefix, else that of its settings.
@@ -37,9 +40,12 @@ class PrefixOption {
   const CLI::Option* option_ = nullptr;
 };
 
-/// Reads the tables [localiser], [mapper] and [octomap_export]; an empty path gives the defaults.
-/// Throws std::runtime_error with all complaints.
+/// Reads the tables [localiser], [mapper], [octomap_export] and [cloud_adapter]; an empty path
+/// gives the defaults. Throws std::runtime_error with all complaints.
 DeskSettings read_settings(const std::filesystem::path& file);
+
+/// The same for the table [cloud_adapter].
+adapter::AdapterConfig read_adapter_settings(const std::filesystem::path& file);
 
 /// The same for the table [cloud_assembler].
 scanner::CloudAssemblerConfig read_scanner_settings(const std::filesystem::path& file);

@@ -68,8 +68,13 @@ std::string why_no_log(const std::filesystem::path& path) {
 
 class LogRecording : public Recording {
  public:
-  LogRecording(const std::filesystem::path& path, std::string prefix, Omissions& omissions)
-      : path_(path), prefix_(std::move(prefix)), omissions_(omissions), log_(path.string()) {
+  LogRecording(const std::filesystem::path& path, std::string prefix, Omissions& omissions,
+               RawChannels raw)
+      : path_(path),
+        prefix_(std::move(prefix)),
+        omissions_(omissions),
+        log_(path.string()),
+        raw_channels_(std::move(raw)) {
     if (!bus::EventLogReader(path.string()).next()) {
       throw io::FileError(path, why_no_log(path));
     }
@@ -94,7 +99,8 @@ class LogRecording : public Recording {
   }
 
   std::string why_no_scan() const override {
-    return clouds_ > 0 ? std::string() : channels_.why_without(bus::kCloud.name, prefix_);
+    const std::string wanted = raw_channels_.empty() ? bus::kCloud.name : raw_channels_.front();
+    return clouds_ + raws_ > 0 ? std::string() : channels_.why_without(wanted, prefix_);
   }
 
   RowOfScan match(const io::PoseTable& poses) const override {
@@ -118,6 +124,8 @@ class LogRecording : public Recording {
   }
 
   std::optional<Record> read(const bus::Event& event) {
+    if (std::ranges::find(raw_channels_, event.channel) != raw_channels_.end())
+      return read_raw(event);
     if (event.channel == bus::kOdometry.name) return decoded(event, OdometryRecord{});
     if (event.channel == bus::kTruth.name) return decoded(event, TruthRecord{});
     if (event.channel != bus::kCloud.name) return std::nullopt;
@@ -138,14 +146,26 @@ class LogRecording : public Recording {
     last_number_ = cloud.number;
   }
 
+  std::optional<Record> read_raw(const bus::Event& event) {
+    const std::int64_t number = raws_++;
+    const bus::Fault fault = bus::check_wire<pointcloud_t>(event.bytes);
+    if (fault == bus::Fault::kNone) return RawRecord{number, event.channel, event.bytes};
+    tell(event, fault);
+    return std::nullopt;
+  }
+
   template <class R>
   std::optional<Record> decoded(const bus::Event& event, R record) {
     const bus::Fault fault = bus::decode(event.bytes, record.message);
     if (fault == bus::Fault::kNone) return record;
+    tell(event, fault);
+    return std::nullopt;
+  }
+
+  void tell(const bus::Event& event, bus::Fault fault) {
     omissions_.add(fmt::format("{}/{}", event.channel, bus::fault_name(fault)),
                    fmt::format("{}: {} in event {} is {}", path_.string(), event.channel,
                                event.number, bus::fault_name(fault)));
-    return std::nullopt;
   }
 
   // Which scans there are is known at the end.
@@ -168,15 +188,17 @@ class LogRecording : public Recording {
   bus::EventLogReader log_;
   ChannelCounts channels_;
   mutable std::shared_ptr<RowUse> row_use_;  // of the last table that was matched
-  std::int64_t clouds_ = 0, damage_told_ = 0;
+  const RawChannels raw_channels_;
+  std::int64_t clouds_ = 0, raws_ = 0, damage_told_ = 0;
   std::int64_t last_seq_ = -1, last_number_ = 0;
 };
 
 }  // namespace
 
 std::unique_ptr<Recording> open_log_recording(const std::filesystem::path& log,
-                                              const std::string& prefix, Omissions& omissions) {
-  return std::make_unique<LogRecording>(log, prefix, omissions);
+                                              const std::string& prefix, Omissions& omissions,
+                                              const RawChannels& raw) {
+  return std::make_unique<LogRecording>(log, prefix, omissions, raw);
 }
 
 }  // namespace voxlist::desk

@@ -6,12 +6,14 @@
 namespace voxlist::desk {
 
 std::unique_ptr<Recording> open_recording(const std::filesystem::path& path,
-                                          const std::string& prefix, Omissions& omissions) {
+                                          const std::string& prefix, Omissions& omissions,
+                                          const RawChannels& raw) {
   std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) return open_folder_recording(path, omissions);
+  if (std::filesystem::is_directory(path, ignored))
+    return open_folder_recording(path, omissions, raw);
   if (!std::filesystem::exists(parts_of(path).files.front(), ignored))
     throw io::FileError(path, "is not there, give a folder of scans or an LCM log");
-  return open_log_recording(path, prefix, omissions);
+  return open_log_recording(path, prefix, omissions, raw);
 }
 
 }  // namespace voxlist::desk

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 #include <voxlist/pointcloud_t.hpp>
 #include <voxlist/pose_t.hpp>
 
@@ -29,7 +30,15 @@ struct TruthRecord {
   pose_t message;
 };
 
-using Record = std::variant<CloudRecord, OdometryRecord, TruthRecord>;
+/// What a laser said on a channel of its own: an encoded pointcloud_t, and its number among those
+/// of all lasers, from 0.
+struct RawRecord {
+  std::int64_t number = 0;
+  std::string channel;
+  std::vector<std::uint8_t> bytes;
+};
+
+using Record = std::variant<CloudRecord, OdometryRecord, TruthRecord, RawRecord>;
 
 /// The row of a pose table that belongs to a scan, by the scan's number and time.
 using RowOfScan =
@@ -57,16 +66,23 @@ class Recording {
   virtual RowOfScan match(const io::PoseTable& poses) const = 0;
 };
 
+/// Channels on which lasers speak for themselves.
+using RawChannels = std::vector<std::string>;
+
 /// Opens a folder of scans (scan_folder.h) or an LCM log, by its name or that of its parts. Of the
 /// log's channels those with this prefix are read. Throws FileError when it is neither. `omissions`
-/// must outlive the recording.
+/// must outlive the recording. With `raw` channels, messages on them are raw records, and so are
+/// the scans of a folder (on the only one of them), but for those that have ray origins: they were
+/// put into base before.
 std::unique_ptr<Recording> open_recording(const std::filesystem::path& path,
-                                          const std::string& prefix, Omissions& omissions);
+                                          const std::string& prefix, Omissions& omissions,
+                                          const RawChannels& raw = {});
 
 /// The two kinds.
 std::unique_ptr<Recording> open_folder_recording(const std::filesystem::path& folder,
-                                                 Omissions& omissions);
+                                                 Omissions& omissions, const RawChannels& raw = {});
 std::unique_ptr<Recording> open_log_recording(const std::filesystem::path& log,
-                                              const std::string& prefix, Omissions& omissions);
+                                              const std::string& prefix, Omissions& omissions,
+                                              const RawChannels& raw = {});
 
 }  // namespace voxlist::desk

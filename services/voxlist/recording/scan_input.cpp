@@ -5,17 +5,28 @@
 #include <utility>
 
 #include "services/voxlist/output/stop.h"
+#include "services/voxlist/recording/adapted_recording.h"
 #include "voxlist/bus/convert.h"
 #include "voxlist/geometry/time_limit.h"
 #include "voxlist/io/files/file.h"
 
 namespace voxlist::desk {
+namespace {
+
+std::unique_ptr<Recording> open(const std::filesystem::path& path, const std::string& prefix,
+                                const adapter::AdapterConfig& adapter, Omissions& omissions) {
+  auto recording = open_recording(path, prefix, omissions, channels_of(adapter));
+  if (adapter.sensors.empty()) return recording;
+  return adapted(std::move(recording), adapter, omissions);
+}
+
+}  // namespace
 
 ScanInput::ScanInput(std::filesystem::path path, Console& console, const RangeLimits& limits,
-                     const std::string& prefix)
+                     const std::string& prefix, const adapter::AdapterConfig& adapter)
     : path_(std::move(path)),
       omissions_(console),
-      recording_(open_recording(path_, prefix, omissions_)),
+      recording_(open(path_, prefix, adapter, omissions_)),
       limits_(limits),
       times_(path_, omissions_) {}
 

@@ -8,6 +8,7 @@
 #include "services/voxlist/recording/recording.h"
 #include "services/voxlist/recording/scan_points.h"
 #include "services/voxlist/recording/scan_times.h"
+#include "voxlist/adapter/adapter_config.h"
 #include "voxlist/geometry/cloud.h"
 #include "voxlist/geometry/odometry_buffer.h"
 #include "voxlist/geometry/tilt.h"
@@ -29,9 +30,10 @@ struct Scan {
 class ScanInput {
  public:
   /// Throws FileError when the path is neither a folder of scans nor a log (`prefix`: of its
-  /// channels). Points outside the limits are only told.
+  /// channels). Points outside the limits are only told. Where `adapter` has sensors, the scans are
+  /// made of what these say (adapted_recording.h).
   ScanInput(std::filesystem::path path, Console& console, const RangeLimits& limits = {},
-            const std::string& prefix = {});
+            const std::string& prefix = {}, const adapter::AdapterConfig& adapter = {});
 
   /// The next scan; nothing at the end, or after Ctrl-C. What cannot be read is left out. Throws
   /// FileError when there was not one scan, or when the scans' times are in another unit.
@@ -60,6 +62,7 @@ class ScanInput {
   std::optional<Scan> take(CloudRecord& record);
   std::optional<Scan> take(const OdometryRecord& record);
   std::optional<Scan> take(const TruthRecord&) { return std::nullopt; }
+  std::optional<Scan> take(const RawRecord&) { return std::nullopt; }  // none: they are adapted
 
   const std::filesystem::path path_;
   Omissions omissions_;
