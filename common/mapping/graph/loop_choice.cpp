@@ -18,9 +18,10 @@ constexpr double kNear_m = 30.0;
 // as much as it is sure: a look at ground that it hardly sees says nothing.
 constexpr std::size_t kFewestOthers = 3;
 constexpr double kLeastShare = 0.6;
-// So many of those that agree must be right by what their scans show alone, in the mean. Right
-// looks at ground that they hardly saw came to 0.27; the three groups of wrong ones that were seen
-// to agree by chance, between places that have nothing in common, to 0.03. All on one recording.
+// So many of those that agree must be right by what their scans show alone, in the mean. Of 142
+// pairs of places on real streets that have nothing in common, one had four looks that agreed; and
+// of their 49 groups of two and more, one came to more than this. Together that is 1 of 7,000, if
+// neither favours the other; 27 of 34 right groups have both.
 constexpr double kLeastRight = 0.1;
 
 bool is_allowed(const PoseTree& tree, const PoseEdge& edge) {

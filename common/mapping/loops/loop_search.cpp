@@ -16,10 +16,14 @@ constexpr double kRound_m = 20.0, kApart_m = 1.0;
 // others from 21 to 41 m away, and first for 3.
 constexpr std::size_t kMostPlaces = 3;
 // A place is told that is known so much better than the drive knows it, in the direction that it is
-// known least: what is known no better agrees with anything.
+// known least. A match holds its pose by the drive's, too: so that counts again by 1 of 64 at most.
 constexpr double kTold = 1.0 / 8.0;
 // What local maps are off by in themselves (m, rad), beside what a match tells.
 constexpr double kLocal_m = 0.02, kLocal_rad = 0.002;
+
+// Keyframes that stand so vaguely to each other (m) are looked for as those of long before: a match
+// of neighbours is surer, so a step between them was told by none.
+constexpr double kUnsure_m = 0.25;
 
 // A prediction that is vaguer than a window may be (m, as a standard deviation) is looked for in
 // the widest window.
@@ -48,10 +52,10 @@ class Search {
 
  private:
   void look_from(std::size_t keyframe) {
-    if (!nearest_old(keyframe, config_.scan.max_range_m)) return;
+    if (!nearest_open(keyframe, config_.scan.max_range_m)) return;
     const Cloud cloud = read_(keyframe);
     const matching::PreparedScan scan(cloud, config_.scan);
-    const auto old = nearest_old(keyframe, scan.reach_m());
+    const auto old = nearest_open(keyframe, scan.reach_m());
     if (!old) return;
     const UncertainPose predicted = in_window(tree_.between(*old, keyframe));
     const double told_m = kTold * worst_sigma_m(predicted.covariance);
@@ -72,15 +76,17 @@ class Search {
     loops_.push_back({from < to ? edge : reversed(edge), to, probability});
   }
 
-  bool is_old(std::size_t a, std::size_t b) const {
-    return is_long_way(tree_.way_m(a, b), distance_m(tree_.pose(a), tree_.pose(b)));
+  // Whether the drive tells too little of how they stand: by a long way, or by a vague step.
+  bool is_open(std::size_t a, std::size_t b) const {
+    return is_long_way(tree_.way_m(a, b), distance_m(tree_.pose(a), tree_.pose(b))) ||
+           worst_sigma_m(tree_.between(a, b).covariance) > kUnsure_m;
   }
 
-  std::optional<std::size_t> nearest_old(std::size_t keyframe, double within_m) const {
+  std::optional<std::size_t> nearest_open(std::size_t keyframe, double within_m) const {
     std::optional<std::size_t> nearest;
     for (std::size_t i = 0; i < tree_.size(); ++i) {
       const double away_m = distance_m(tree_.pose(i), tree_.pose(keyframe));
-      if (away_m > within_m || !is_old(i, keyframe)) continue;
+      if (away_m > within_m || !is_open(i, keyframe)) continue;
       nearest = i;
       within_m = away_m;
     }
@@ -90,7 +96,7 @@ class Search {
   LocalMap map_round(std::size_t centre, std::size_t keyframe) {
     std::vector<std::size_t> round;
     for (std::size_t i = 0; i < tree_.size(); ++i)
-      if (tree_.way_m(centre, i) <= kRound_m && is_old(i, keyframe)) round.push_back(i);
+      if (tree_.way_m(centre, i) <= kRound_m && is_open(i, keyframe)) round.push_back(i);
     const auto away_m = [&](std::size_t i) {
       return distance_m(tree_.pose(i), tree_.pose(centre));
     };

@@ -11,8 +11,9 @@ namespace voxlist::mapping {
 /// it: there it may meet ground that it mapped long before.
 bool is_long_way(double way_m, double away_m);
 
-/// Looks where a drive meets ground that it mapped long before: each keyframe that may see such
-/// ground is searched for round where the drive has it, in a map of those old keyframes only.
+/// Looks where a drive meets ground that it mapped long before, or before a step that no match
+/// tells: each keyframe that may see such ground is searched for round where the drive has it, in a
+/// map of those keyframes only.
 /// Matched with a map that has both, it would be held where it is by what it saw just before.
 std::vector<Loop> find_loops(const PoseTree& tree, const ReadCloud& read,
                              const matching::MatcherConfig& config);

@@ -14,6 +14,16 @@ namespace {
 // (three degrees of freedom).
 constexpr double kMissed2 = 3.5 * 3.5;
 
+// Neighbours that are farther apart (m) may share too little for a match to tell their step. Scans
+// of a drive are nearer; real stations that were, 11 to 22 m apart, stood up to 2 m off.
+constexpr double kLongStep_m = 10.0;
+
+bool has_long_step(const std::vector<Pose2>& poses) {
+  return std::adjacent_find(poses.begin(), poses.end(), [](const Pose2& a, const Pose2& b) {
+           return distance_m(a, b) > kLongStep_m;
+         }) != poses.end();
+}
+
 // Whether some keyframe may see ground of long before, by the way in the order of time.
 bool may_come_back(const std::vector<Pose2>& poses, double sight_m) {
   std::vector<double> way_m{0.0};
@@ -45,7 +55,7 @@ bool is_open(const std::vector<Pose2>& poses, const std::vector<PoseEdge>& drive
 MapClosing close_map(const std::vector<Pose2>& poses, const ReadCloud& read,
                      const matching::MatcherConfig& config) {
   MapClosing closing{poses};
-  if (!may_come_back(poses, config.scan.max_range_m)) return closing;
+  if (!has_long_step(poses) && !may_come_back(poses, config.scan.max_range_m)) return closing;
   const std::vector<PoseEdge> drive = join_neighbours(poses, read, config);
   const PoseTree tree(poses.size(), drive);
   const ClosedDrive closed =

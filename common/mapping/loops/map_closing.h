@@ -10,7 +10,8 @@ namespace voxlist::mapping {
 struct MapClosing {
   /// T_map_keyframe of each, rounded; as they were where nothing is to be closed.
   std::vector<Pose2> poses;
-  /// Loops that were believed: looks from one keyframe at others of long before.
+  /// Loops that were believed: looks from one keyframe at others of long before, or on the other
+  /// side of a step that no match tells.
   std::size_t loops = 0;
   /// Those that agree with each other and were not believed: they would move the past by more than
   /// it may be off.
@@ -21,8 +22,8 @@ struct MapClosing {
 
 /// Where keyframes, whose poses are about right, stand when the drive's loops are closed.
 /// `poses`: T_map_keyframe in the order of time; the first one stays. A match for each keyframe and
-/// its neighbour and one each 2 m, 10 to 30 ms each, where the drive came back; next to nothing
-/// where it did not.
+/// its neighbour and one each 2 m, 10 to 30 ms each, where the drive came back or has a step of
+/// more than 10 m; next to nothing where it did not.
 MapClosing close_map(const std::vector<Pose2>& poses, const ReadCloud& read,
                      const matching::MatcherConfig& config);
 

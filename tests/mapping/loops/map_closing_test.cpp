@@ -61,12 +61,15 @@ std::vector<Pose2> bent(const std::vector<Pose2>& truth) {
 
 class MapClosingTest : public testing::Test {
  protected:
-  static Cloud scan(const Pose2& pose, std::size_t i) {
+  Cloud scan(const Pose2& pose, std::size_t i) const {
     static const simulation::World world = block();
-    return simulation::scan_sphere(
-        world, pose,
-        {.rays = 32 * 180, .rings = 32, .rings_to_deg = 25.0, .height_m = 1.5, .range_max_m = 25.0},
-        i + 1);
+    return simulation::scan_sphere(world, pose,
+                                   {.rays = 32 * 180,
+                                    .rings = 32,
+                                    .rings_to_deg = 25.0,
+                                    .height_m = 1.5,
+                                    .range_max_m = range_m_},
+                                   i + 1);
   }
 
   MapClosing close(const std::vector<Pose2>& poses) {
@@ -79,6 +82,7 @@ class MapClosingTest : public testing::Test {
   }
 
   std::vector<Pose2> truth_ = way_round(12.0);
+  double range_m_ = 25.0;
   int reads_ = 0;
 };
 
@@ -99,6 +103,19 @@ TEST_F(MapClosingTest, AMapThatIsClosedStaysAsItIs) {
   EXPECT_GT(reads_, 0);
   EXPECT_FALSE(closing.moves);
   EXPECT_EQ(closing.poses, truth_);
+}
+
+// Along a street and on after a long step, by which a tracker was wrong.
+TEST_F(MapClosingTest, AStepThatNoMatchTellsIsToldByLooksAcrossIt) {
+  range_m_ = 40.0;
+  truth_.clear();
+  for (const double along_m : {-4.0, -2.0, 0.0, 2.0, 4.0, 20.0, 22.0, 24.0, 26.0, 28.0})
+    truth_.push_back({along_m, 0.0, 0.0});
+  std::vector<Pose2> before = truth_;
+  for (std::size_t i = 5; i < before.size(); ++i) before[i] = Pose2{-1.5, 2.4, 0.0} * before[i];
+  const MapClosing closing = close(before);
+  EXPECT_TRUE(closing.moves);
+  EXPECT_LT(rmse_m(closing.poses, truth_), 0.05);
 }
 
 TEST_F(MapClosingTest, WhereADriveDoesNotComeBackNothingIsLookedAt) {
