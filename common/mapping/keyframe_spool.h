@@ -15,6 +15,8 @@ namespace voxlist::mapping {
 struct SpooledKeyframe {
   std::size_t index = 0;
   Pose3 T_map_base = Pose3::Identity();
+  /// Odometry's pose at its time, if there was odometry.
+  std::optional<Pose2> T_odom_base = std::nullopt;
 };
 
 /// The keyframes of a map in the making, whose id is not known yet: on the disk, in a file without

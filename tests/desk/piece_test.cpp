@@ -28,9 +28,9 @@ TEST(Piece, MakesItsMapAnewWhereKeyframesAreMoved) {
   const test::TemporaryFolder folder;
   mapping::KeyframeSpool spool(folder.path());
   Piece piece({}, mapping::MapBuilder(), spool);
-  ASSERT_TRUE(piece.take(wall(0, 1.0F), at(0.0)));
-  ASSERT_TRUE(piece.take(wall(1'000'000, 3.0F), at(4.0)));
-  ASSERT_FALSE(piece.take(wall(1'200'000, 3.0F), at(4.1)));
+  ASSERT_TRUE(piece.take(wall(0, 1.0F), at(0.0), std::nullopt));
+  ASSERT_TRUE(piece.take(wall(1'000'000, 3.0F), at(4.0), std::nullopt));
+  ASSERT_FALSE(piece.take(wall(1'200'000, 3.0F), at(4.1), std::nullopt));
 
   const Pose2 moved{3.0, 1.0, std::numbers::pi / 2};
   piece.move_keyframes({{}, moved});

@@ -52,11 +52,11 @@ bool is_open(const std::vector<Pose2>& poses, const std::vector<PoseEdge>& drive
 
 }  // namespace
 
-MapClosing close_map(const std::vector<Pose2>& poses, const ReadCloud& read,
-                     const matching::MatcherConfig& config) {
+MapClosing close_map(const std::vector<Pose2>& poses, const DriveOdometry& odometry,
+                     const ReadCloud& read, const matching::MatcherConfig& config) {
   MapClosing closing{poses};
   if (!has_long_step(poses) && !may_come_back(poses, config.scan.max_range_m)) return closing;
-  const std::vector<PoseEdge> drive = join_neighbours(poses, read, config);
+  const std::vector<PoseEdge> drive = join_neighbours(poses, odometry, read, config);
   const PoseTree tree(poses.size(), drive);
   const ClosedDrive closed =
       close_loops(tree, drive, find_loops(tree, read, config), poses.front());

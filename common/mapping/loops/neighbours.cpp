@@ -1,6 +1,5 @@
 #include "voxlist/mapping/loops/neighbours.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <deque>
 #include <memory>
@@ -8,6 +7,7 @@
 #include <optional>
 
 #include "voxlist/mapping/graph/pose_tree.h"
+#include "voxlist/matching/motion/pose_fusion.h"
 
 namespace voxlist::mapping {
 namespace {
@@ -62,28 +62,23 @@ struct Prepared {
 // The mean of two looks at the same motion, as far as they agree. Both are of the same two scans,
 // so together they are no surer than one of them.
 UncertainPose mean_of(const UncertainPose& a, const UncertainPose& b) {
-  const Eigen::Matrix3d ia = a.covariance.inverse(), ib = b.covariance.inverse();
-  const Eigen::Vector3d off{b.pose.x_m - a.pose.x_m, b.pose.y_m - a.pose.y_m,
-                            wrap_angle(b.pose.yaw_rad - a.pose.yaw_rad)};
-  const Eigen::Matrix3d mean = (ia + ib).inverse();
-  const Eigen::Vector3d step = mean * ib * off;
-  UncertainPose both{
-      {a.pose.x_m + step.x(), a.pose.y_m + step.y(), wrap_angle(a.pose.yaw_rad + step.z())},
-      2.0 * mean};
-  both.covariance += 0.25 * off * off.transpose();
+  UncertainPose both = together(a, b);
+  const Eigen::Vector3d off = matching::difference(b.pose, a.pose);
+  both.covariance = 2.0 * both.covariance + 0.25 * off * off.transpose();
   return both;
 }
 
 class Neighbours {
  public:
-  Neighbours(const std::vector<Pose2>& poses, const ReadCloud& read,
+  Neighbours(const std::vector<Pose2>& poses, const DriveOdometry& odometry, const ReadCloud& read,
              const matching::MatcherConfig& config)
-      : poses_(poses), read_(read), config_(config), part_(poses.size()) {
+      : poses_(poses), odometry_(odometry), read_(read), config_(config), part_(poses.size()) {
     std::iota(part_.begin(), part_.end(), std::size_t{0});
   }
 
   std::vector<PoseEdge> join() {
-    for (std::size_t i = 1; i < poses_.size(); ++i) join(i - 1, i) || join_with_more(i - 1, i);
+    for (std::size_t i = 1; i < poses_.size(); ++i)
+      join(i - 1, i) || join_with_more(i - 1, i) || join_by_odometry(i - 1, i);
     join_parts();
     for (std::size_t i = 1; i < poses_.size(); ++i)
       if (part_[i - 1] != part_[i]) add(unmatched(i - 1, i));
@@ -148,12 +143,18 @@ class Neighbours {
     return add_both(matched_with_more(from, to), matched_with_more(to, from));
   }
 
+  bool join_by_odometry(std::size_t from, std::size_t to) {
+    const auto told = odometry_step(odometry_, from, to);
+    return told && add({from, to, *told});
+  }
+
   bool add_both(const std::optional<PoseEdge>& there, const std::optional<PoseEdge>& back) {
     if (!there && !back) return false;
     PoseEdge edge = there ? *there : reversed(*back);
     if (there && back) edge.T_from_to = mean_of(edge.T_from_to, reversed(*back).T_from_to);
     const Pose2& motion = edge.T_from_to.pose;
     edge.T_from_to.covariance += (1.0 + distance_m(motion, {})) * variances(kDrift_m, kDrift_rad);
+    edge.T_from_to = with_odometry(edge.T_from_to, odometry_step(odometry_, edge.from, edge.to));
     return add(edge);
   }
 
@@ -191,6 +192,7 @@ class Neighbours {
   }
 
   const std::vector<Pose2>& poses_;
+  const DriveOdometry& odometry_;
   const ReadCloud& read_;
   const matching::MatcherConfig config_;
   // Which part of the drive each keyframe is in, by the number of one of them.
@@ -201,9 +203,10 @@ class Neighbours {
 
 }  // namespace
 
-std::vector<PoseEdge> join_neighbours(const std::vector<Pose2>& poses, const ReadCloud& read,
+std::vector<PoseEdge> join_neighbours(const std::vector<Pose2>& poses,
+                                      const DriveOdometry& odometry, const ReadCloud& read,
                                       const matching::MatcherConfig& config) {
-  return in_tree_order(Neighbours(poses, read, config).join());
+  return in_tree_order(Neighbours(poses, odometry, read, config).join());
 }
 
 }  // namespace voxlist::mapping

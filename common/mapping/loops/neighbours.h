@@ -4,14 +4,16 @@
 
 #include "voxlist/mapping/graph/pose_edge.h"
 #include "voxlist/mapping/loops/local_map.h"
+#include "voxlist/mapping/loops/odometry_step.h"
 
 namespace voxlist::mapping {
 
 /// The drive's own way: what joins the keyframes of a map, whose poses are about right, to a tree.
-/// Each is matched with the one before; where a drive hangs together otherwise, the nearest ones
-/// that match join its parts; and what no match joins stands as the map has it, and is not sure of
-/// that. In the order that PoseTree wants.
-std::vector<PoseEdge> join_neighbours(const std::vector<Pose2>& poses, const ReadCloud& read,
+/// Each is matched with the one before, and odometry tells what the match does not; where a drive
+/// hangs together otherwise, the nearest ones that match join its parts; and what no match joins
+/// stands as the map has it, and is not sure of that. In the order that PoseTree wants.
+std::vector<PoseEdge> join_neighbours(const std::vector<Pose2>& poses,
+                                      const DriveOdometry& odometry, const ReadCloud& read,
                                       const matching::MatcherConfig& config);
 
 }  // namespace voxlist::mapping

@@ -211,7 +211,7 @@ void MapRun::wait(const Scan& scan) {
   const Localisation found =
       piece.localiser().localise(scan.cloud, scan.T_odom_base, scan.odometry_tilt);
   if (!found.tracking()) return erase(piece);
-  piece.take(scan.cloud, found.modes.front());
+  piece.take(scan.cloud, found.modes.front(), scan.T_odom_base);
   loosen(piece);
 }
 
@@ -223,7 +223,7 @@ void MapRun::begin_piece(const Scan& scan, const Localisation& elsewhere) {
       piece.localiser().localise(scan.cloud, scan.T_odom_base, scan.odometry_tilt);
   if (!found.tracking()) return erase(piece);
   Piece* const last = std::exchange(now_, &piece);
-  now_->take(scan.cloud, found.modes.front());
+  now_->take(scan.cloud, found.modes.front(), scan.T_odom_base);
   behind_.reset();
   hint_.reset();
   if (goes_on(*last, scan.cloud.utime_us) && !elsewhere.modes.empty())
@@ -240,7 +240,7 @@ void MapRun::begin_piece(const Scan& scan, const Localisation& elsewhere) {
 
 void MapRun::take(const Scan& scan, const Localisation& found) {
   const bool is_second = !is_confirmed(*now_);
-  const bool is_keyframe = now_->take(scan.cloud, found.modes.front());
+  const bool is_keyframe = now_->take(scan.cloud, found.modes.front(), scan.T_odom_base);
   if (is_second && left_ && !is_confirmed(*left_)) loosen(*left_);
   if (is_second) left_ = nullptr;
   if (!is_keyframe) return;
@@ -345,7 +345,7 @@ void MapRun::place_loose() {
     const Cloud cloud = spool_.read(keyframe).cloud;
     const Localisation found = map().localiser().recognise(cloud, kReturns);
     const bool sure = tells_a_place(found) && log_odds(found.confidence) >= kSureAlone;
-    if (sure) map().take(cloud, found.modes.front());
+    if (sure) map().take(cloud, found.modes.front(), keyframe.T_odom_base);
     return sure;
   });
 }

@@ -25,17 +25,18 @@ Piece::Piece(const matching::LocaliserConfig& localiser, mapping::MapBuilder map
       keep_(std::move(keep)),
       localiser_(builder_.map(), localiser) {}
 
-bool Piece::take(const Cloud& cloud, const matching::PoseMode& found) {
+bool Piece::take(const Cloud& cloud, const matching::PoseMode& found,
+                 const std::optional<Pose2>& T_odom_base) {
   const Pose3 T_piece_base = to_pose3(found.T_map_base, found.tilt);
   trajectory_.push_back({cloud.utime_us, T_piece_base});
   if (!builder_.wants(cloud, found.T_map_base, found.tilt)) return false;
-  add({T_piece_base, cloud}, nullptr);
+  add({T_piece_base, cloud}, T_odom_base);
   return true;
 }
 
 void Piece::add(Cloud cloud, const Pose3& T_piece_base) {
   trajectory_.push_back({cloud.utime_us, T_piece_base});
-  add({T_piece_base, std::move(cloud)}, nullptr);
+  add({T_piece_base, std::move(cloud)}, std::nullopt);
 }
 
 void Piece::move_keyframes(const std::vector<Pose2>& T_piece_base) {
@@ -56,19 +57,26 @@ void Piece::join(const Piece& other, const Pose2& T_this_other) {
   const Pose3 to_here = to_pose3(T_this_other);
   for (mapping::SpooledKeyframe keyframe : other.keyframes_) {
     keyframe.T_map_base = to_here * keyframe.T_map_base;
-    add(spool_.read(keyframe), &keyframe);
+    const mapping::Keyframe added = add_to_map(spool_.read(keyframe));
+    if (keep_)
+      keep_(added);
+    else
+      keyframes_.push_back(keyframe);
   }
   for (const StampedPose3& pose : other.trajectory_)
     trajectory_.push_back({pose.utime_us, to_here * pose.pose});
 }
 
-// `spooled`: where it is in the spool, if it is there.
-void Piece::add(mapping::Keyframe keyframe, const mapping::SpooledKeyframe* spooled) {
+void Piece::add(mapping::Keyframe keyframe, const std::optional<Pose2>& T_odom_base) {
+  keyframe = add_to_map(std::move(keyframe));
+  if (keep_) return keep_(keyframe);
+  keyframes_.push_back({spool_.add(keyframe), keyframe.T_map_base, T_odom_base});
+}
+
+mapping::Keyframe Piece::add_to_map(mapping::Keyframe keyframe) {
   keyframe = builder_.add(std::move(keyframe));
   localiser_.map_grew(builder_.changed_blocks());
-  if (keep_) return keep_(keyframe);
-  keyframes_.push_back(
-      spooled ? *spooled : mapping::SpooledKeyframe{spool_.add(keyframe), keyframe.T_map_base});
+  return keyframe;
 }
 
 }  // namespace voxlist::desk

@@ -34,7 +34,8 @@ class Piece {
 
   /// Takes a scan at the pose that was found in the piece, and adds it to the map if it tells
   /// something new. Returns whether it did.
-  bool take(const Cloud& cloud, const matching::PoseMode& found);
+  bool take(const Cloud& cloud, const matching::PoseMode& found,
+            const std::optional<Pose2>& T_odom_base);
 
   /// Adds a scan to the map at its pose.
   void add(Cloud cloud, const Pose3& T_piece_base);
@@ -47,7 +48,8 @@ class Piece {
   void join(const Piece& other, const Pose2& T_this_other);
 
  private:
-  void add(mapping::Keyframe keyframe, const mapping::SpooledKeyframe* spooled);
+  void add(mapping::Keyframe keyframe, const std::optional<Pose2>& T_odom_base);
+  mapping::Keyframe add_to_map(mapping::Keyframe keyframe);
 
   mapping::MapBuilder builder_;
   mapping::KeyframeSpool& spool_;

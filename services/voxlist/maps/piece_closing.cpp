@@ -45,9 +45,14 @@ PieceClosing close_piece(Piece& piece, mapping::KeyframeSpool& spool,
   const std::vector<std::size_t> order = by_time(piece.builder().poses());
   const auto& keyframes = piece.keyframes();
   Poses before;
-  for (const std::size_t i : order) before.push_back(to_pose2(keyframes[i].T_map_base));
+  mapping::DriveOdometry odometry;
+  for (const std::size_t i : order) {
+    before.push_back(to_pose2(keyframes[i].T_map_base));
+    odometry.push_back(keyframes[i].T_odom_base);
+  }
   const mapping::MapClosing closed = mapping::close_map(
-      before, [&](std::size_t i) { return level_cloud(spool, keyframes[order[i]]); }, config);
+      before, odometry, [&](std::size_t i) { return level_cloud(spool, keyframes[order[i]]); },
+      config);
   PieceClosing closing{closed.loops, closed.refused};
   if (!closed.moves) return closing;
   const Poses poses = in_piece(closed.poses, order, to_pose2(keyframes.front().T_map_base));

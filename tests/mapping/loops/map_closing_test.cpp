@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 
 #include "tests/mapping/graph/block_drive.h"
 #include "tests/simulation/sphere_scan.h"
@@ -62,6 +63,7 @@ std::vector<Pose2> bent(const std::vector<Pose2>& truth) {
 class MapClosingTest : public testing::Test {
  protected:
   Cloud scan(const Pose2& pose, std::size_t i) const {
+    if (blind_.contains(i)) return {};
     static const simulation::World world = block();
     return simulation::scan_sphere(world, pose,
                                    {.rays = 32 * 180,
@@ -72,8 +74,8 @@ class MapClosingTest : public testing::Test {
                                    i + 1);
   }
 
-  MapClosing close(const std::vector<Pose2>& poses) {
-    return close_map(poses,
+  MapClosing close(const std::vector<Pose2>& poses, const DriveOdometry& odometry = {}) {
+    return close_map(poses, odometry,
                      [&](std::size_t i) {
                        ++reads_;
                        return scan(truth_[i], i);
@@ -82,6 +84,7 @@ class MapClosingTest : public testing::Test {
   }
 
   std::vector<Pose2> truth_ = way_round(12.0);
+  std::set<std::size_t> blind_;
   double range_m_ = 25.0;
   int reads_ = 0;
 };
@@ -103,6 +106,22 @@ TEST_F(MapClosingTest, AMapThatIsClosedStaysAsItIs) {
   EXPECT_GT(reads_, 0);
   EXPECT_FALSE(closing.moves);
   EXPECT_EQ(closing.poses, truth_);
+}
+
+// On the second side of the block nothing is seen, and the tracker went 1 m astray there.
+TEST_F(MapClosingTest, WhereNoMatchTellsAStepOdometryDoes) {
+  std::vector<Pose2> before = bent(truth_);
+  for (std::size_t i = 18; i < 23; ++i) blind_.insert(i);
+  for (std::size_t i = 20; i < before.size(); ++i) before[i] = Pose2{1.0, 0.0, 0.0} * before[i];
+  simulation::Random random(3);
+  DriveOdometry odometry{Pose2{7.0, -3.0, 1.0}};
+  for (std::size_t i = 1; i < truth_.size(); ++i)
+    odometry.push_back(*odometry.back() * truth_[i - 1].inverse() * truth_[i] *
+                       noise(random, 0.01, 0.01));
+  const MapClosing without = close(before), with = close(before, odometry);
+  EXPECT_TRUE(with.moves);
+  EXPECT_LT(rmse_m(with.poses, truth_), 0.04);
+  EXPECT_GT(rmse_m(without.poses, truth_), 2.0 * rmse_m(with.poses, truth_));
 }
 
 // Along a street and on after a long step, by which a tracker was wrong.
