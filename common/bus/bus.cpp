@@ -147,9 +147,10 @@ Bus::Bus(const BusOptions& options) : impl_(std::make_unique<Impl>()) {
 
 Bus::~Bus() = default;
 
-void Bus::publish_encoded(const std::string& channel, Bytes bytes) {
+void Bus::publish_encoded(const std::string& channel, Bytes bytes, Delivery delivery) {
   const std::string wire_name = impl_->prefix + channel;
-  const bool sent = wire_name.size() <= kMaxChannelName && impl_->transport->send(wire_name, bytes);
+  const bool sent =
+      wire_name.size() <= kMaxChannelName && impl_->transport->send(wire_name, bytes, delivery);
   if (sent) return impl_->count(channel, "sent");
   impl_->count_loss(channel, "unsent_refused");
 }

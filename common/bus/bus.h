@@ -10,6 +10,7 @@
 
 #include "voxlist/bus/channels.h"
 #include "voxlist/bus/counters.h"
+#include "voxlist/bus/multicast/delivery.h"
 #include "voxlist/bus/traffic.h"
 #include "voxlist/bus/wire.h"
 
@@ -37,15 +38,6 @@ std::string why_invalid(const BusOptions& options);
 /// Whether a url names a recording, which ends, and not a network.
 bool is_recording(const std::string& url);
 
-/// Which of a channel's messages a handler gets.
-enum class Delivery {
-  /// Every message, at once, in the order of arrival.
-  kEvery,
-  /// Only the newest of those that wait, after all kEvery messages that wait: for handlers slower
-  /// than their channel.
-  kLatest,
-};
-
 /// The one door to LCM. Nothing that arrives, and nothing that a handler throws, gets past it:
 /// bytes are checked before they are decoded, and what is refused is counted by reason. Use one Bus
 /// from one thread.
@@ -64,20 +56,23 @@ class Bus {
   Bus(const Bus&) = delete;
   Bus& operator=(const Bus&) = delete;
 
-  /// Sends a message, or counts why it could not be sent.
+  /// Sends a message, or counts why it could not be sent. With kLatest it takes the place of one
+  /// that listeners were too slow for: see MulticastSender.
   template <class M>
-  void publish(Channel<M> channel, const M& message) {
+  void publish(Channel<M> channel, const M& message, Delivery delivery = Delivery::kEvery) {
     std::vector<std::uint8_t> bytes;
     const Fault fault = encode(message, bytes);
     if (fault != Fault::kNone) return count_unsent(channel.name, fault_name(fault));
-    publish_encoded(channel.name, bytes);
+    publish_encoded(channel.name, bytes, delivery);
   }
 
   /// Sends bytes as they are: for replaying recordings. They are not checked.
-  void publish_encoded(const std::string& channel, Bytes bytes);
+  void publish_encoded(const std::string& channel, Bytes bytes,
+                       Delivery delivery = Delivery::kEvery);
 
-  /// Calls `handler` from within handle() with messages of the channel. Once a channel: a second
-  /// time throws std::logic_error.
+  /// Calls `handler` from within handle() with messages of the channel: kEvery at once, the newest
+  /// (kLatest) after all kEvery messages that wait, for handlers slower than their channel. Once a
+  /// channel: a second time throws std::logic_error.
   template <class M>
   void subscribe(Channel<M> channel, std::function<void(const std::type_identity_t<M>&)> handler,
                  Delivery delivery = Delivery::kEvery) {

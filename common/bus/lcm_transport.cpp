@@ -59,8 +59,8 @@ class LcmTransport : public Transport {
     lcm_subscription_set_queue_capacity(subscription, capacity);
   }
 
-  bool send(const std::string& channel, Bytes bytes) override {
-    if (sender_) return sender_->send(channel, bytes);
+  bool send(const std::string& channel, Bytes bytes, Delivery delivery) override {
+    if (sender_) return sender_->send(channel, bytes, delivery);
     return lcm_publish(lcm_.get(), channel.c_str(), bytes.data(),
                        static_cast<unsigned>(bytes.size())) == 0;
   }
@@ -85,6 +85,7 @@ class LcmTransport : public Transport {
     if (!sender_) return {};
     return {.queued_bytes = sender_->queued_bytes(),
             .failed_messages = sender_->failed(),
+            .superseded_messages = sender_->superseded(),
             .dropped_packets = dropped_by_own_sockets(port_)};
   }
 

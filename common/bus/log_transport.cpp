@@ -12,7 +12,7 @@ class LogTransport : public Transport {
 
   void listen(const std::string& channel, int) override { channels_.insert(channel); }
 
-  bool send(const std::string&, Bytes) override { return false; }
+  bool send(const std::string&, Bytes, Delivery) override { return false; }
 
   Received receive(std::chrono::milliseconds, int, const Receiver& receiver) override {
     while (const std::optional<Event> event = log_.next()) {

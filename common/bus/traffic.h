@@ -10,6 +10,8 @@ struct Traffic {
   std::int64_t queued_bytes = 0;
   /// Published, but refused by the system when it was their turn.
   std::int64_t failed_messages = 0;
+  /// Published, but left for newer ones before it was their turn (Delivery::kLatest).
+  std::int64_t superseded_messages = 0;
   /// Packets that the kernel had no room for when they came: the message of each is lost.
   std::int64_t dropped_packets = 0;
 };

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "voxlist/bus/multicast/delivery.h"
 #include "voxlist/bus/traffic.h"
 #include "voxlist/bus/wire.h"
 
@@ -34,7 +35,7 @@ class Transport {
   virtual void listen(const std::string& channel, int capacity) = 0;
 
   /// False: it could not be sent.
-  virtual bool send(const std::string& channel, Bytes bytes) = 0;
+  virtual bool send(const std::string& channel, Bytes bytes, Delivery delivery) = 0;
 
   /// Hands one message to `receiver`, waiting for it up to `timeout`, or until `wake_fd` (unless
   /// -1) can be read.

@@ -30,6 +30,9 @@ void ResourceReport::take(const bus::Traffic& traffic, std::int64_t memory_bytes
        health);
   tell(failed_, traffic.failed_messages, "messages_not_sent",
        "large messages were refused by the system: is the network's route still there?", health);
+  tell(superseded_, traffic.superseded_messages, "messages_left_for_newer",
+       "messages were left for newer ones, as listeners read too slowly: is the machine too busy?",
+       health);
 }
 
 void ResourceReport::tell(Loss& loss, std::int64_t count, const std::string& key,

@@ -10,7 +10,8 @@
 namespace voxlist::service {
 
 /// Tells HEALTH what a service holds (gauges memory_MB, send_queue_MB), and what the network lost:
-/// packets that found no room when they came, and messages that the system refused to send.
+/// packets that found no room when they came, messages that the system refused to send, and those
+/// that were left for newer ones.
 class ResourceReport {
  public:
   /// Whether a second has passed since take().
@@ -33,6 +34,7 @@ class ResourceReport {
   std::optional<std::int64_t> now_us_;
   Loss dropped_;
   Loss failed_;
+  Loss superseded_;
 };
 
 }  // namespace voxlist::service

@@ -42,10 +42,13 @@ TEST(ResourceReport, TellsALossUntilThereWasNoneForFiveSeconds) {
   EXPECT_EQ(health.state(), bus::Health::State::kWarning);
   report.take({.dropped_packets = 7}, 0, 7'000'000, health);
   EXPECT_EQ(health.message(), "");
-  report.take({.failed_messages = 2, .dropped_packets = 8}, 0, 8'000'000, health);
-  EXPECT_THAT(health.message(), StartsWith("2 large messages were refused"));
+  report.take({.failed_messages = 2, .superseded_messages = 4, .dropped_packets = 8}, 0, 8'000'000,
+              health);
+  EXPECT_THAT(health.message(), StartsWith("4 messages were left for newer ones"));
   EXPECT_THAT(health.message(), ::testing::HasSubstr("; 1 packets found no room"));
-  EXPECT_EQ(health.last(0).counters.front().count, 2) << "messages_not_sent";
+  EXPECT_THAT(health.message(), ::testing::HasSubstr("2 large messages were refused"));
+  EXPECT_EQ(health.last(0).counters[0].count, 4) << "messages_left_for_newer";
+  EXPECT_EQ(health.last(0).counters[1].count, 2) << "messages_not_sent";
   EXPECT_EQ(health.last(0).counters.back().count, 8) << "packets_without_room";
 }
 

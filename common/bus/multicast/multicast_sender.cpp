@@ -90,7 +90,9 @@ std::thread start_without_signals(const Work& work) {
 struct MulticastSender::Queued {
   std::string channel;
   std::vector<std::uint8_t> bytes;
+  Delivery delivery = Delivery::kEvery;
   std::vector<Packet> packets;
+  std::size_t sent = 0;  // of the packets
   bool failed = false;
 };
 
@@ -111,33 +113,62 @@ MulticastSender::~MulticastSender() {
   close(fd_);
 }
 
-bool MulticastSender::send(const std::string& channel, std::span<const std::uint8_t> message) {
+bool MulticastSender::send(const std::string& channel, std::span<const std::uint8_t> message,
+                           Delivery delivery) {
   const std::lock_guard lock(mutex_);
-  if (message.size() > kSmall || waiting_.contains(channel)) return queue(channel, message);
+  if (message.size() > kSmall || waiting_.contains(channel))
+    return queue(channel, message, delivery);
   return send_packet(packets_of(channel, message, number_++).front());
 }
 
-bool MulticastSender::queue(const std::string& channel, std::span<const std::uint8_t> message) {
+bool MulticastSender::queue(const std::string& channel, std::span<const std::uint8_t> message,
+                            Delivery delivery) {
+  if (delivery == Delivery::kLatest && replace_waiting(channel, message)) return true;
   const auto size = static_cast<std::int64_t>(message.size());
-  if (!queue_.idle() && queue_.queued_bytes() + size > kMaxQueued) return false;
-  auto queued = std::make_shared<Queued>();
+  if (!queue_.idle() && queued_bytes_ + size > kMaxQueued) return false;
+  const auto queued = std::make_shared<Queued>();
   queued->channel = channel;
-  queued->bytes.assign(message.begin(), message.end());
-  queued->packets = packets_of(channel, queued->bytes, number_++);
-  for (std::size_t i = 0; i < queued->packets.size(); ++i)
-    queue_.push(queued->packets[i].size(), [this, queued, i] { send_queued(*queued, i); });
-  ++waiting_[channel];
+  queued->delivery = delivery;
+  write(message, *queued);
+  Channel& waiting = waiting_[channel];
+  ++waiting.messages;
+  waiting.newest = queued;
+  queue_.push(queued->packets.front().size(), [this, queued] { send_next_packet(queued); });
   changed_.notify_one();
   return true;
 }
 
-void MulticastSender::send_queued(Queued& message, std::size_t packet) {
+bool MulticastSender::replace_waiting(const std::string& channel,
+                                      std::span<const std::uint8_t> message) {
+  const auto waiting = waiting_.find(channel);
+  if (waiting == waiting_.end()) return false;
+  Queued& newest = *waiting->second.newest;
+  if (newest.delivery != Delivery::kLatest || newest.sent > 0) return false;
+  queued_bytes_ -= static_cast<std::int64_t>(newest.bytes.size());
+  write(message, newest);
+  ++superseded_;
+  return true;
+}
+
+void MulticastSender::write(std::span<const std::uint8_t> message, Queued& queued) {
+  queued.bytes.assign(message.begin(), message.end());
+  queued.packets = packets_of(queued.channel, queued.bytes, number_++);
+  queued_bytes_ += static_cast<std::int64_t>(message.size());
+}
+
+void MulticastSender::send_next_packet(const std::shared_ptr<Queued>& message) {
   // Without one of its packets no other is of use.
-  if (!message.failed) message.failed = !send_packet(message.packets[packet]);
-  if (packet + 1 < message.packets.size()) return;
+  if (!message->failed) message->failed = !send_packet(message->packets[message->sent]);
+  if (++message->sent == message->packets.size()) return finish(*message);
+  queue_.push_first(message->packets[message->sent].size(),
+                    [this, message] { send_next_packet(message); });
+}
+
+void MulticastSender::finish(const Queued& message) {
   if (message.failed) ++failed_;
+  queued_bytes_ -= static_cast<std::int64_t>(message.bytes.size());
   const auto waiting = waiting_.find(message.channel);
-  if (--waiting->second == 0) waiting_.erase(waiting);
+  if (--waiting->second.messages == 0) waiting_.erase(waiting);
 }
 
 bool MulticastSender::send_packet(const Packet& packet) const {
@@ -179,7 +210,7 @@ bool MulticastSender::listeners_have_room() {
 
 std::int64_t MulticastSender::queued_bytes() const {
   const std::lock_guard lock(mutex_);
-  return queue_.queued_bytes();
+  return queued_bytes_;
 }
 
 }  // namespace voxlist::bus

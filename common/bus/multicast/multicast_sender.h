@@ -6,6 +6,7 @@
 #include <condition_variable>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <span>
@@ -13,6 +14,7 @@
 #include <thread>
 
 #include "voxlist/bus/multicast/address.h"
+#include "voxlist/bus/multicast/delivery.h"
 #include "voxlist/bus/multicast/listener_room.h"
 #include "voxlist/bus/multicast/paced_sender.h"
 #include "voxlist/bus/multicast/packets.h"
@@ -26,6 +28,9 @@ namespace voxlist::bus {
 /// Small messages go out at once. Large ones are copied and sent by a thread of its own, one after
 /// the other; a small one of a channel of which a large one waits goes behind it, so that the
 /// messages of a channel keep their order.
+///
+/// A message sent as kLatest takes the place of the newest one of its channel that was sent so, as
+/// long as that one waits: so it is late by two messages at most, however slow the listeners are.
 class MulticastSender {
  public:
   /// Throws std::runtime_error with the system's reason.
@@ -37,7 +42,8 @@ class MulticastSender {
   MulticastSender& operator=(const MulticastSender&) = delete;
 
   /// Sends, or queues for sending. False: the system refused it, or too much waits.
-  bool send(const std::string& channel, std::span<const std::uint8_t> message);
+  bool send(const std::string& channel, std::span<const std::uint8_t> message,
+            Delivery delivery = Delivery::kEvery);
 
   /// What waits to be sent.
   std::int64_t queued_bytes() const;
@@ -45,11 +51,22 @@ class MulticastSender {
   /// Messages that the system refused after send() had taken them.
   std::int64_t failed() const { return failed_; }
 
+  /// Messages that newer ones took the place of.
+  std::int64_t superseded() const { return superseded_; }
+
  private:
   struct Queued;
+  // What waits of a channel, or is being sent.
+  struct Channel {
+    int messages = 0;
+    std::shared_ptr<Queued> newest;
+  };
 
-  bool queue(const std::string& channel, std::span<const std::uint8_t> message);
-  void send_queued(Queued& message, std::size_t packet);
+  bool queue(const std::string& channel, std::span<const std::uint8_t> message, Delivery delivery);
+  bool replace_waiting(const std::string& channel, std::span<const std::uint8_t> message);
+  void write(std::span<const std::uint8_t> message, Queued& queued);
+  void send_next_packet(const std::shared_ptr<Queued>& message);
+  void finish(const Queued& message);
   bool send_packet(const Packet& packet) const;
   void work();
   bool wait_for_work(std::unique_lock<std::mutex>& lock);
@@ -60,11 +77,13 @@ class MulticastSender {
   mutable std::mutex mutex_;  // of all down to failed_
   std::condition_variable changed_;
   PacedSender queue_;
-  std::map<std::string, int> waiting_;  // messages by channel
+  std::int64_t queued_bytes_ = 0;
+  std::map<std::string, Channel> waiting_;
   std::uint32_t number_ = 0;
   bool ending_ = false;
   std::optional<std::int64_t> end_us_;
   std::atomic<std::int64_t> failed_ = 0;
+  std::atomic<std::int64_t> superseded_ = 0;
   ListenerRoom room_;  // of the thread alone
   std::thread thread_;
 };

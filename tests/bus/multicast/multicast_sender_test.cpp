@@ -32,6 +32,7 @@ TEST(MulticastSender, SendsTheBytesThatLcmSends) { run_there("SendsTheBytesThatL
 TEST(MulticastSender, LosesNothingWithTheDefaultBuffer) {
   run_there("LosesNothingWithTheDefaultBuffer");
 }
+TEST(MulticastSender, LeavesWhatWaitsForTheNewest) { run_there("LeavesWhatWaitsForTheNewest"); }
 TEST(MulticastSender, DoesNotWaitForAListenerThatIsStopped) {
   run_there("DoesNotWaitForAListenerThatIsStopped");
 }
@@ -138,6 +139,27 @@ TEST(MulticastSenderThere, DISABLED_LosesNothingWithTheDefaultBuffer) {
   std::vector<std::int32_t> all(kClouds);
   std::iota(all.begin(), all.end(), 0);
   for (const auto& one : heard) EXPECT_EQ(one, all);
+}
+
+// While a listener does not read: one message is being sent, and one waits.
+TEST(MulticastSenderThere, DISABLED_LeavesWhatWaitsForTheNewest) {
+  Ear ear;
+  MulticastSender sender{MulticastAddress{}};
+  constexpr std::uint8_t kMessages = 20;
+  constexpr std::size_t kSize = 400'000;
+  for (std::uint8_t i = 0; i < kMessages; ++i)
+    ASSERT_TRUE(sender.send("CLOUD", Bytes(kSize, i), Delivery::kLatest));
+  EXPECT_LE(sender.queued_bytes(), 2 * static_cast<std::int64_t>(kSize));
+  ASSERT_GE(sender.superseded(), kMessages - 2);
+  ASSERT_LT(sender.superseded(), kMessages);
+  const auto sent = static_cast<std::size_t>(kMessages - sender.superseded());
+  const std::vector<Bytes> heard = ear.hear(sent * packets_of("CLOUD", Bytes(kSize), 0).size());
+  ASSERT_FALSE(heard.back().empty());
+  EXPECT_EQ(heard.back().back(), kMessages - 1);
+  ASSERT_TRUE(sender.send("CLOUD", Bytes(kSize, 1)));
+  ASSERT_TRUE(sender.send("CLOUD", Bytes(kSize, 2), Delivery::kLatest));
+  EXPECT_EQ(sender.superseded(), kMessages - static_cast<std::int64_t>(sent))
+      << "what was not sent so stays";
 }
 
 TEST(MulticastSenderThere, DISABLED_DoesNotWaitForAListenerThatIsStopped) {
