@@ -33,9 +33,9 @@ std::vector<AdapterFinding> findings(const SensorReport& report, const std::stri
   std::vector<AdapterFinding> found;
   if (!report.time_complaint.empty())
     found.push_back({"point_times", fmt::format("{}: {}", channel, report.time_complaint),
-                     report[MessageFate::kBadTimes] > 0});
+                     report[MessageFate::kBadTimes] > 0 ? Grade::kError : Grade::kWarning});
   if (report[MessageFate::kNoPoints] > 0)
-    found.push_back({"no_points", why_none_is_left(report, channel), true});
+    found.push_back({"no_points", why_none_is_left(report, channel), Grade::kError});
   const std::int64_t on_robot = count(report, PointFate::kRobot),
                      in_range = on_robot + count(report, PointFate::kPoint);
   if (in_range > 0 && share(on_robot, in_range) > kMostOnRobot)
@@ -47,7 +47,13 @@ std::vector<AdapterFinding> findings(const SensorReport& report, const std::stri
                      fmt::format("{} waits for ODOMETRY in vain: does it come, and do their clocks "
                                  "agree? Without one set use_odometry = false",
                                  channel),
-                     true});
+                     Grade::kError});
+  if (report[MessageFate::kSuperseded] > 0)
+    found.push_back({"rate",
+                     fmt::format("{} comes faster than CLOUD may (max_rate_hz): the newest are "
+                                 "taken",
+                                 channel),
+                     Grade::kNote});
   return found;
 }
 

@@ -7,14 +7,20 @@
 
 namespace voxlist::adapter {
 
-/// Something that is wrong with a sensor's message, or with its settings.
+/// How bad a finding is.
+enum class Grade {
+  kNote,     ///< as the settings want it
+  kWarning,  ///< the message was used, but is it right?
+  kError,    ///< the message was of no use
+};
+
+/// Something that a person should know of a sensor's message, or of its settings.
 struct AdapterFinding {
   /// One word, the same for the same fault.
   std::string key;
   /// The sentence tells a person what is wrong, and what to do.
   std::string sentence;
-  /// Whether the message was of no use.
-  bool is_error = false;
+  Grade grade = Grade::kWarning;
 };
 
 /// What a report tells that a person should know. `channel` is the sensor's.

@@ -4,6 +4,7 @@
 
 #include <cctype>
 #include <stdexcept>
+#include <utility>
 #include <voxlist/pointcloud_t.hpp>
 #include <voxlist/pose_t.hpp>
 
@@ -29,6 +30,18 @@ const adapter::AdapterConfig& with_plain_names(const adapter::AdapterConfig& con
   return config;
 }
 
+State state_of(adapter::Grade grade) {
+  switch (grade) {
+    case adapter::Grade::kNote:
+      return State::kOk;
+    case adapter::Grade::kWarning:
+      return State::kWarning;
+    case adapter::Grade::kError:
+      break;
+  }
+  return State::kError;
+}
+
 }  // namespace
 
 CloudAdapterService::CloudAdapterService(bus::Bus& bus, bus::Health& health,
@@ -41,7 +54,8 @@ CloudAdapterService::CloudAdapterService(bus::Bus& bus, bus::Health& health,
                 {.channel = bus::kOdometry.name,
                  .remedy = "is the robot base running? Without one set use_odometry = false",
                  .disorder_us = OdometryBuffer::kMaxAge_us}),
-      clouds_(health, {.channel = bus::kCloud.name, .remedy = ""}) {
+      clouds_(health, {.channel = bus::kCloud.name, .remedy = ""}),
+      superseded_(config.sensors.size()) {
   for (std::size_t i = 0; i < config_.sensors.size(); ++i) {
     const bus::Channel<pointcloud_t> channel{config_.sensors[i].channel.c_str()};
     sensors_.emplace_back(health, service::ChannelCheck::Options{
@@ -60,6 +74,9 @@ void CloudAdapterService::check(const adapter::AdapterConfig& config) {
 void CloudAdapterService::take_cloud(std::size_t sensor, bus::Bytes bytes) {
   const bus::CloudView message(bytes);
   service::ChannelCheck& check = sensors_[sensor];
+  const std::int64_t skipped = newly_superseded(sensor);
+  check.take_number(message.seq(), skipped);
+  check.leave_out(skipped);
   if (!check.take(message.utime_us())) return;
   auto raw = service::take_raw_cloud(message, config_.sensors[sensor]);
   if (!raw.cloud) {
@@ -70,6 +87,13 @@ void CloudAdapterService::take_cloud(std::size_t sensor, bus::Bytes bytes) {
   publish(adapter_.add_cloud(sensor, std::move(*raw.cloud)));
 }
 
+// Messages since the last one that this one took the place of.
+std::int64_t CloudAdapterService::newly_superseded(std::size_t sensor) {
+  const auto counted = bus_.counters().find(config_.sensors[sensor].channel + "/superseded");
+  const std::int64_t all = counted == bus_.counters().end() ? 0 : counted->second;
+  return all - std::exchange(superseded_[sensor], all);
+}
+
 void CloudAdapterService::take_odometry(const pose_t& message) {
   if (!odometry_.take(message.utime)) return;
   const auto pose = bus::from_message(message);
@@ -78,10 +102,13 @@ void CloudAdapterService::take_odometry(const pose_t& message) {
 }
 
 void CloudAdapterService::publish(const adapter::Adapted& adapted) {
+  // Slices of several sensors do not stand for each other.
+  const auto slices = sensors_.size() > 1 ? bus::Delivery::kEvery : bus::Delivery::kLatest;
   for (const Cloud& slice : adapted.slices)
-    bus_.publish(bus::kCloudSlice, bus::to_message(slice, "base", slices_sent_++));
+    bus_.publish(bus::kCloudSlice, bus::to_message(slice, "base", slices_sent_++), slices);
   for (const Cloud& cloud : adapted.clouds) {
-    bus_.publish(bus::kCloud, bus::to_message(cloud, "base", clouds_sent_++));
+    bus_.publish(bus::kCloud, bus::to_message(cloud, "base", clouds_sent_++),
+                 bus::Delivery::kLatest);
     sent_arrival_us_ = arrival_us_;
     health_.gauge("cloud_points", static_cast<double>(cloud.points.size()));
   }
@@ -108,8 +135,7 @@ void CloudAdapterService::tell(std::size_t sensor, const adapter::SensorReport& 
           channel + "/points/" + adapter::counter_name(static_cast<adapter::PointFate>(i)),
           report.points[i]);
   for (const adapter::AdapterFinding& finding : adapter::findings(report, channel))
-    sensors_[sensor].note(finding.key, finding.is_error ? State::kError : State::kWarning,
-                          finding.sentence);
+    sensors_[sensor].note(finding.key, state_of(finding.grade), finding.sentence);
 }
 
 void CloudAdapterService::tick(std::int64_t now_us) {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <vector>
 
 #include "voxlist/adapter/cloud_adapter.h"
 #include "voxlist/bus/channels.h"
@@ -31,6 +32,7 @@ class CloudAdapterService {
 
  private:
   void take_cloud(std::size_t sensor, bus::Bytes bytes);
+  std::int64_t newly_superseded(std::size_t sensor);
   void take_odometry(const pose_t& message);
   void publish(const adapter::Adapted& adapted);
   void tell(const adapter::Adapted& adapted);
@@ -42,7 +44,8 @@ class CloudAdapterService {
   adapter::CloudAdapter adapter_;
   std::deque<service::ChannelCheck> sensors_;  // in the order of the settings
   service::ChannelCheck odometry_;
-  service::ChannelCheck clouds_;  // what is wrong with CLOUD itself
+  service::ChannelCheck clouds_;          // what is wrong with CLOUD itself
+  std::vector<std::int64_t> superseded_;  // of each sensor, before they were read
   std::int32_t clouds_sent_ = 0, slices_sent_ = 0;
   std::int64_t arrival_us_ = 0;  // of the laser's message that came last
   std::optional<std::int64_t> sent_arrival_us_;

@@ -91,6 +91,7 @@ void LocaliserService::take_cloud(const pointcloud_t& message) {
   if (waiting_.size() > static_cast<std::size_t>(config_.max_waiting_clouds)) {
     waiting_.pop_front();
     health_.count("CLOUD/dropped_while_waiting");
+    cloud_input_.leave_out(1);
   }
 }
 

@@ -28,7 +28,7 @@ TEST(AdapterFindings, SayWhereAllPointsWent) {
   ++report[MessageFate::kNoPoints];
   const auto found = findings(report, "LASER_3D");
   ASSERT_GE(found.size(), 1u);
-  EXPECT_TRUE(found[0].is_error);
+  EXPECT_EQ(found[0].grade, Grade::kError);
   EXPECT_THAT(found[0].sentence,
               AllOf(HasSubstr("no point of LASER_3D"), HasSubstr("7 nearer than range_min_m"),
                     HasSubstr("3 on the robot")));
@@ -38,7 +38,7 @@ TEST(AdapterFindings, TellOfBoxesThatHoldNearlyAll) {
   EXPECT_TRUE(findings(with_points(100, 0, 900), "LASER_3D").empty());
   const auto found = findings(with_points(50, 0, 950), "LASER_3D");
   ASSERT_EQ(found.size(), 1u);
-  EXPECT_FALSE(found[0].is_error);
+  EXPECT_EQ(found[0].grade, Grade::kWarning);
   EXPECT_THAT(found[0].sentence, HasSubstr("robot_boxes_m hold 95 % of LASER_3D's points"));
 }
 
@@ -50,8 +50,17 @@ TEST(AdapterFindings, TellOfTimesAndOfOdometry) {
   const auto found = findings(report, "LASER_3D");
   ASSERT_EQ(found.size(), 2u);
   EXPECT_EQ(found[0].sentence, "LASER_3D: the points' times are 100 s apart");
-  EXPECT_TRUE(found[0].is_error);
+  EXPECT_EQ(found[0].grade, Grade::kError);
   EXPECT_THAT(found[1].sentence, HasSubstr("waits for ODOMETRY in vain"));
+}
+
+TEST(AdapterFindings, TellOfALaserThatIsFasterThanItMayBe) {
+  SensorReport report;
+  ++report[MessageFate::kSuperseded];
+  const auto found = findings(report, "LASER_3D");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].grade, Grade::kNote);
+  EXPECT_THAT(found[0].sentence, HasSubstr("LASER_3D comes faster than CLOUD may"));
 }
 
 }  // namespace

@@ -200,6 +200,40 @@ TEST(CloudAdapterService, JoinsTwoLasersAndSaysWhenOneIsMissing) {
   EXPECT_GE(scene.counted("CLOUD/incomplete"), 2);
 }
 
+TEST(CloudAdapterService, TakesTheNewestThatWaitsAndSaysHowManyItLeftOut) {
+  Scene scene;
+  scene.play(2);
+  for (int i = 0; i < 3; ++i)
+    scene.bus.publish(bus::Channel<pointcloud_t>{"LASER_3D"}, sweep(scene.now_us + i * 10'000));
+  scene.odometry(scene.now_us + 120'000);
+  ASSERT_EQ(scene.clouds.size(), 3u);
+  EXPECT_EQ(scene.clouds[2].utime, scene.now_us + 120'000) << "that of the newest";
+  scene.service.tick(scene.now_us += 120'000);
+  const health_t told = scene.told();
+  EXPECT_THAT(told.message, HasSubstr("2 of LASER_3D left out for newer ones"));
+  EXPECT_EQ(told.state, health_t::STATE_WARNING);
+}
+
+TEST(CloudAdapterService, SaysThatMessagesWereLostOnTheirWay) {
+  Scene scene;
+  for (const int seq : {1, 2, 5}) {
+    pointcloud_t message = sweep(kStart_us + seq * 100'000);
+    message.seq = seq;
+    scene.laser(message);
+  }
+  EXPECT_THAT(scene.told().message, HasSubstr("LASER_3D has gaps in seq: 2 of 4 lost"));
+}
+
+TEST(CloudAdapterService, SaysThatALaserIsFasterThanItMayBeAsNoFault) {
+  adapter::AdapterConfig config = one_laser();
+  config.max_rate_hz = 3.0;
+  Scene scene(config);
+  scene.play(20);
+  const health_t told = scene.told();
+  EXPECT_THAT(told.message, HasSubstr("LASER_3D comes faster than CLOUD may (max_rate_hz)"));
+  EXPECT_EQ(told.state, health_t::STATE_OK);
+}
+
 TEST(CloudAdapterService, PublishesSlicesWhenAskedTo) {
   adapter::AdapterConfig config = one_laser();
   config.slices = true;

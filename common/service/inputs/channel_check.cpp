@@ -74,8 +74,8 @@ bool ChannelCheck::take(std::int64_t utime_us) {
   return false;
 }
 
-void ChannelCheck::take_number(std::int32_t seq) {
-  const std::int64_t gap = seq_ ? std::int64_t{seq} - *seq_ - 1 : 0;
+void ChannelCheck::take_number(std::int32_t seq, std::int64_t skipped) {
+  const std::int64_t gap = seq_ ? std::int64_t{seq} - *seq_ - 1 - skipped : 0;
   seq_ = seq;
   const bool is_told = noted_.contains("lost_on_the_way");
   if (!is_told) lost_ = {.messages = 0, .of = 1};
@@ -83,12 +83,21 @@ void ChannelCheck::take_number(std::int32_t seq) {
   if (gap <= 0 || gap > kMaxGap) return;
   lost_ = {.messages = lost_.messages + gap, .of = lost_.of + gap};
   health_.count(key_of("lost_on_the_way"), gap);
-  note(
-      "lost_on_the_way", State::kWarning,
-      fmt::format("{} has gaps in seq: {} of {} lost on their way; does its sender put each out in "
-                  "one burst, as LCM's own does? Pace it, or allow listeners more: sysctl -w "
-                  "net.core.rmem_max=8000000",
-                  options_.channel, lost_.messages, lost_.of));
+  note("lost_on_the_way", State::kWarning,
+       fmt::format("{} has gaps in seq: {} of {} lost on their way, or left out by their sender "
+                   "(its HEALTH tells); does it put each out in one burst, as LCM's own does? Pace "
+                   "it, or allow listeners more: sysctl -w net.core.rmem_max=8000000",
+                   options_.channel, lost_.messages, lost_.of));
+}
+
+void ChannelCheck::leave_out(std::int64_t messages) {
+  if (messages <= 0) return;
+  if (!noted_.contains("left_out")) left_out_ = 0;
+  left_out_ += messages;
+  note("left_out", State::kWarning,
+       fmt::format("{} of {} left out for newer ones, which come before it is their turn: is the "
+                   "machine too slow or too busy?",
+                   left_out_, options_.channel));
 }
 
 void ChannelCheck::note(const std::string& key, State state, const std::string& sentence) {

@@ -31,8 +31,12 @@ class ChannelCheck {
   /// then.
   bool take(std::int64_t utime_us);
 
-  /// Its number, which counts up by one a message. Numbers that stay the same are none.
-  void take_number(std::int32_t seq);
+  /// Its number, which counts up by one a message. Numbers that stay the same are none. `skipped`
+  /// messages before it came, but were left out here.
+  void take_number(std::int32_t seq, std::int64_t skipped = 0);
+
+  /// So many messages were left out, as newer ones were there: what came is more than can be used.
+  void leave_out(std::int64_t messages);
 
   /// Something is wrong with a message. `key` is one word.
   void note(const std::string& key, bus::Health::State state, const std::string& sentence);
@@ -54,6 +58,7 @@ class ChannelCheck {
   TimeGate gate_;
   std::map<std::string, Noted> noted_;
   std::optional<std::int32_t> seq_;
+  std::int64_t left_out_ = 0;  // since it is told
   struct {
     std::int64_t messages = 0;
     std::int64_t of = 0;

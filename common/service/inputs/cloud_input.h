@@ -24,6 +24,7 @@ class CloudInput {
   std::optional<Cloud> take(const pointcloud_t& message);
 
   /// See ChannelCheck.
+  void leave_out(std::int64_t messages) { check_.leave_out(messages); }
   void tick(std::int64_t now_us) { check_.tick(now_us); }
 
  private:

@@ -83,10 +83,6 @@ class AdaptedRecording : public Recording {
   void tell(const std::string& channel, const adapter::SensorReport& report) {
     for (const adapter::AdapterFinding& finding : adapter::findings(report, channel))
       omissions_.remark(channel + '/' + finding.key, finding.sentence);
-    if (report[MessageFate::kSuperseded] > 0)
-      omissions_.remark(channel + "/rate",
-                        fmt::format("{} comes faster than max_rate_hz, {:g}: the newest are taken",
-                                    channel, config_.max_rate_hz));
     for (const MessageFate fate :
          {MessageFate::kOutOfOrder, MessageFate::kBadTimes, MessageFate::kNoPoints,
           MessageFate::kNoOdometry, MessageFate::kOverflow})

@@ -119,6 +119,22 @@ TEST(ChannelCheck, CountsWhatGapsInTheNumbersTell) {
   for (const int seq : {10, 11, 15}) channel.check.take_number(seq);
   EXPECT_THAT(channel.health.message(), HasSubstr("CLOUD has gaps in seq: 5 of 10 lost"));
   EXPECT_EQ(channel.counted("CLOUD/lost_on_the_way"), 5);
+  channel.check.take_number(18, 2);
+  EXPECT_EQ(channel.counted("CLOUD/lost_on_the_way"), 5) << "16 and 17 came";
+}
+
+TEST(ChannelCheck, TellsHowManyWereLeftOutUntilNoneWereForFiveSeconds) {
+  Channel channel;
+  channel.check.leave_out(0);
+  EXPECT_EQ(channel.health.message(), "");
+  channel.check.leave_out(2);
+  channel.check.leave_out(1);
+  EXPECT_THAT(channel.health.message(), HasSubstr("3 of CLOUD left out for newer ones"));
+  channel.take(kNow_us);
+  for (int i = 1; i <= 51; ++i) channel.take(kNow_us + i);
+  EXPECT_EQ(channel.health.message(), "");
+  channel.check.leave_out(1);
+  EXPECT_THAT(channel.health.message(), HasSubstr("1 of CLOUD left out"));
 }
 
 TEST(ChannelCheck, NumbersThatStayOrBeginAnewAreNoGaps) {
