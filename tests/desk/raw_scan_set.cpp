@@ -4,9 +4,9 @@
 
 #include <cmath>
 #include <filesystem>
-#include <numbers>
 
 #include "tests/desk/scan_set.h"
+#include "tests/simulation/swept_laser.h"
 #include "voxlist/geometry/mount.h"
 #include "voxlist/simulation/building/building.h"
 #include "voxlist/simulation/world/robot.h"
@@ -16,9 +16,6 @@
 namespace voxlist::test {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr int kColumns = 240, kRings = 16;
-constexpr double kSweep_s = 0.1;
 constexpr double kFirst_s = 1.0, kPeriod_s = 0.5;
 
 simulation::Trajectory make_drive(const simulation::Building& building) {
@@ -28,33 +25,26 @@ simulation::Trajectory make_drive(const simulation::Building& building) {
   return simulation::drive(simulation::plan_tour(building, {}), config);
 }
 
-Pose3 T_base_laser() { return mount_pose({0.2, 0.0, 1.0}, 0.0, 10.0, 30.0); }
-
-Eigen::Vector3d direction(int column, int ring) {
-  const double azimuth_rad = -2.0 * kPi * column / kColumns;
-  const double elevation_rad = (2.0 * ring - 15.0) * kPi / 180.0;
-  return {std::cos(azimuth_rad) * std::cos(elevation_rad),
-          std::sin(azimuth_rad) * std::cos(elevation_rad), std::sin(elevation_rad)};
+simulation::SweptLaser laser() {
+  return {.rays = 3840,
+          .rings = 16,
+          .range_sd_m = 0.0,
+          .T_base_laser = mount_pose({0.2, 0.0, 1.0}, 0.0, 10.0, 30.0)};
 }
 
-// The sweep that begins at a time, as rows of a PLY file.
-std::string rows_of(const simulation::World& world, const simulation::Trajectory& drive,
-                    double start_s, int& n) {
-  std::string rows;
-  for (int column = 0; column < kColumns; ++column) {
-    const double after_s = kSweep_s * column / (kColumns - 1);
-    const Pose3 T = to_pose3(drive.at(start_s + after_s)) * T_base_laser();
-    for (int ring = 0; ring < kRings; ++ring) {
-      const Eigen::Vector3d ray = direction(column, ring);
-      const auto range_m = world.range(T.translation(), T.linear() * ray, start_s);
-      if (!range_m) continue;
-      const Eigen::Vector3d point = *range_m * ray;
-      rows += fmt::format("{:.5f} {:.5f} {:.5f} {:.7f} {}\n", point.x(), point.y(), point.z(),
-                          after_s, ring);
-      ++n;
-    }
+// A sweep as a PLY file.
+std::string ply_of(const simulation::LaserSweep& sweep) {
+  std::string text = fmt::format(
+      "ply\nformat ascii 1.0\nelement vertex {}\nproperty float x\n"
+      "property float y\nproperty float z\nproperty float time\n"
+      "property uchar ring\nend_header\n",
+      sweep.points.size());
+  for (std::size_t i = 0; i < sweep.points.size(); ++i) {
+    const Eigen::Vector3f& point = sweep.points[i];
+    text += fmt::format("{:.5f} {:.5f} {:.5f} {:.7f} {}\n", point.x(), point.y(), point.z(),
+                        sweep.after_s[i], sweep.rings[i]);
   }
-  return rows;
+  return text;
 }
 
 std::string row(std::int64_t utime_us, const Pose2& pose) {
@@ -71,13 +61,8 @@ void RawScanSet::write(const std::string& folder) const {
   std::string poses = "index,utime_us,x_m,y_m,yaw_rad\n", odometry = "utime_us,x_m,y_m,yaw_rad\n";
   for (int scan = 0; scan < kScans; ++scan) {
     const double start_s = kFirst_s + kPeriod_s * scan;
-    int n = 0;
-    const std::string rows = rows_of(world, drive_, start_s, n);
     write_text(fmt::format("{}/scan_{}.ply", folder, scan),
-               fmt::format("ply\nformat ascii 1.0\nelement vertex {}\nproperty float x\n"
-                           "property float y\nproperty float z\nproperty float time\n"
-                           "property uchar ring\nend_header\n{}",
-                           n, rows));
+               ply_of(sweep(world, drive_, laser(), start_s, 1)));
     const std::int64_t utime_us = std::llround(start_s * 1e6);
     poses += fmt::format("{},{}", scan, row(utime_us, truth(utime_us)));
   }

@@ -13,6 +13,7 @@
 #include "voxlist/bus/cloud_view.h"
 #include "voxlist/bus/event_log.h"
 #include "voxlist/io/files/file.h"
+#include "voxlist/io/packets/pcap_file.h"
 
 namespace voxlist::desk {
 namespace {
@@ -88,27 +89,35 @@ std::string summary(const ImportOptions& options, const Written& written) {
                      written.truths);
 }
 
+std::unique_ptr<Recording> open_input(const ImportOptions& options, Omissions& omissions) {
+  const RawChannels raw = options.channel.empty() ? RawChannels() : RawChannels{options.channel};
+  if (std::filesystem::is_regular_file(options.scans) && io::is_pcap(options.scans))
+    return open_pcap_recording(options.scans, omissions, raw);
+  return open_folder_recording(options.scans, omissions, raw);
+}
+
 int import_scans(const ImportOptions& options, Console& console) {
   Omissions omissions(console);
-  const auto folder =
-      open_folder_recording(options.scans, omissions,
-                            options.channel.empty() ? RawChannels() : RawChannels{options.channel});
+  const auto input = open_input(options, omissions);
   FreshFile file(options.log);
   Importer importer(file.path(), omissions);
   {
     Progress progress(console, "importing scans");
     while (!stop_requested()) {
-      const auto record = folder->next();
+      const auto record = input->next();
       if (!record) break;
       std::visit(importer, *record);
-      progress.show(folder->progress());
+      progress.show(input->progress());
     }
   }
   importer.close();
   if (importer.written().scans == 0) {
-    throw io::FileError(options.scans,
-                        stop_requested() ? "interrupted before the first scan, nothing was written"
-                                         : "has no scan that can be read, nothing was written");
+    if (stop_requested())
+      throw io::FileError(options.scans, "interrupted before the first scan, nothing was written");
+    const std::string why = input->why_no_scan();
+    throw io::FileError(options.scans, why.empty() ? "has no scan that can be read, nothing was "
+                                                     "written"
+                                                   : why);
   }
   if (!omissions.empty()) console.warn("left out: " + omissions.summary());
   return publish_or_keep_older(file, console, summary(options, importer.written()));
@@ -118,12 +127,13 @@ int import_scans(const ImportOptions& options, Console& console) {
 
 void add_import(CLI::App& program, Command& chosen) {
   CLI::App* command = program.add_subcommand(
-      "import", "Turns a folder of scans into an LCM log of CLOUD messages.");
+      "import", "Turns scans of other programs into an LCM log, for scripts/replay and the rest.");
   const auto options = std::make_shared<ImportOptions>();
   command
       ->add_option("SCANS_DIR", options->scans,
-                   "folder of scan_*.ply or scan_*.pcd; poses.csv in it becomes TRUTH, "
-                   "odometry.csv ODOMETRY")
+                   "folder of scan_*.ply or scan_*.pcd (poses.csv in it becomes TRUTH, "
+                   "odometry.csv ODOMETRY), or of the KITTI data sets (velodyne); or a file .pcap "
+                   "of a Velodyne VLP-16 or HDL-32E")
       ->required();
   command->add_option("-o,--output", options->log, "the log to write; an old one is replaced")
       ->required();
@@ -135,7 +145,8 @@ void add_import(CLI::App& program, Command& chosen) {
   command->footer(
       "Examples:\n"
       "  voxlist import hall -o hall.lcmlog && scripts/replay hall.lcmlog\n"
-      "  voxlist import raw_scans -o raw.lcmlog --channel VELODYNE");
+      "  voxlist import raw_scans -o raw.lcmlog --channel VELODYNE\n"
+      "  voxlist import drive.pcap -o raw.lcmlog --channel VELODYNE");
   command->callback([options, &chosen] {
     chosen = [options](Console& console) { return import_scans(*options, console); };
   });

@@ -69,8 +69,9 @@ class Recording {
 /// Channels on which lasers speak for themselves.
 using RawChannels = std::vector<std::string>;
 
-/// Opens a folder of scans (scan_folder.h) or an LCM log, by its name or that of its parts. Of the
-/// log's channels those with this prefix are read. Throws FileError when it is neither. `omissions`
+/// Opens a folder of scans (scan_folder.h), what tcpdump recorded of a Velodyne laser, or an LCM
+/// log, by its name or that of its parts. Of the log's channels those with this prefix are read.
+/// Throws FileError when it is none of these. `omissions`
 /// must outlive the recording. With `raw` channels, messages on them are raw records, and so are
 /// the scans of a folder (on the only one of them), but for those that have ray origins: they were
 /// put into base before.
@@ -78,11 +79,13 @@ std::unique_ptr<Recording> open_recording(const std::filesystem::path& path,
                                           const std::string& prefix, Omissions& omissions,
                                           const RawChannels& raw = {});
 
-/// The two kinds.
+/// The three kinds. A laser's packets give raw records alone, on the only one of `raw`.
 std::unique_ptr<Recording> open_folder_recording(const std::filesystem::path& folder,
                                                  Omissions& omissions, const RawChannels& raw = {});
 std::unique_ptr<Recording> open_log_recording(const std::filesystem::path& log,
                                               const std::string& prefix, Omissions& omissions,
                                               const RawChannels& raw = {});
+std::unique_ptr<Recording> open_pcap_recording(const std::filesystem::path& path,
+                                               Omissions& omissions, const RawChannels& raw);
 
 }  // namespace voxlist::desk
