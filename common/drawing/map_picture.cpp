@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "voxlist/drawing/map_columns.h"
+#include "voxlist/drawing/side_view.h"
 
 namespace voxlist::drawing {
 namespace {
@@ -38,7 +39,7 @@ struct Box {
 };
 
 /// The rectangle that is drawn: all but the few points far out, and the whole path.
-Box extent(const std::vector<Eigen::Vector3f>& points, const std::vector<Pose2>& path) {
+Box extent(const std::vector<Eigen::Vector3f>& points, const std::vector<Eigen::Vector3d>& path) {
   constexpr double kOutliers = 0.001;
   Box box;
   for (int axis = 0; axis < 2; ++axis) {
@@ -51,9 +52,9 @@ Box extent(const std::vector<Eigen::Vector3f>& points, const std::vector<Pose2>&
       box.high[axis] = quantile(values, 1.0 - kOutliers);
     }
   }
-  for (const Pose2& pose : path) {
-    box.low = box.low.cwiseMin(Vector2d(pose.x_m, pose.y_m));
-    box.high = box.high.cwiseMax(Vector2d(pose.x_m, pose.y_m));
+  for (const Eigen::Vector3d& place : path) {
+    box.low = box.low.cwiseMin(place.head<2>());
+    box.high = box.high.cwiseMax(place.head<2>());
   }
   const double margin = 0.01 * (box.high - box.low).maxCoeff() + 0.1;
   box.low.array() -= margin;
@@ -148,18 +149,45 @@ Raster draw_columns(const Layout& layout, const std::vector<MapColumn>& columns,
   return raster;
 }
 
-void draw_path(Picture& picture, const Layout& layout, const std::vector<Pose2>& path) {
-  std::vector<Vector2d> pixels;
-  for (const Pose2& pose : path) {
-    pixels.push_back(layout.pixel({pose.x_m, pose.y_m}));
-  }
+void draw_line_of_path(Picture& picture, const std::vector<Vector2d>& pixels, double end_radius) {
   picture.line(pixels, 3.0, kPath);
-  if (!pixels.empty()) {
-    picture.disc(pixels.front(), 15.0, kBackground);
-    picture.disc(pixels.front(), 12.0, kStart);
-    picture.disc(pixels.back(), 15.0, kBackground);
-    picture.disc(pixels.back(), 12.0, kPath);
+  if (pixels.empty()) return;
+  for (const auto& [end, colour] : {std::pair(pixels.front(), kStart), {pixels.back(), kPath}}) {
+    picture.disc(end, end_radius + 3.0, kBackground);
+    picture.disc(end, end_radius, colour);
   }
+}
+
+void draw_path(Picture& picture, const Layout& layout, const std::vector<Eigen::Vector3d>& path) {
+  std::vector<Vector2d> pixels;
+  for (const Eigen::Vector3d& place : path) pixels.push_back(layout.pixel(place.head<2>()));
+  draw_line_of_path(picture, pixels, 12.0);
+}
+
+SideView side_of(const Layout& layout, const std::vector<Eigen::Vector3f>& points) {
+  std::vector<Vector2d> seen;
+  for (const Eigen::Vector3f& point : points) {
+    const Eigen::Vector3d p = point.cast<double>();
+    if (layout.shows(p.head<2>())) seen.emplace_back(layout.pixel(p.head<2>()).x(), p.z());
+  }
+  return SideView(seen, layout.pixels_per_m());
+}
+
+/// The map from the side with its path, from this row of the picture on.
+void draw_side(Picture& picture, const Layout& layout, const SideView& side,
+               const HeightRange& heights, const std::vector<Eigen::Vector3d>& path, int top) {
+  const auto colour = [&](double height_m) { return heights.colour(height_m); };
+  picture.paste(side.draw(kWidth, layout.cell_m() * layout.pixels_per_m(), kBackground, colour), 0,
+                top);
+  std::vector<Vector2d> pixels;
+  for (const Eigen::Vector3d& place : path)
+    pixels.emplace_back(layout.pixel(place.head<2>()).x(), top + side.row(place.z()));
+  draw_line_of_path(picture, pixels, 5.0);
+  const auto label = [&](double row, double height_m) {
+    picture.text({kMargin / 4.0, row}, fmt::format("{:.1f} m", height_m), 0.7 * kTextSize, kInk);
+  };
+  label(top + kTextSize, side.high_m());
+  label(top + side.height(), side.low_m());
 }
 
 /// The longest of 1, 2, 5, 10, ... that is no longer than limit.
@@ -219,14 +247,17 @@ void draw_height_legend(Picture& picture, const HeightRange& heights, double rig
 
 }  // namespace
 
-Picture draw_map(const std::vector<Eigen::Vector3f>& points, const std::vector<Pose2>& path,
-                 double resolution_m) {
+Picture draw_map(const std::vector<Eigen::Vector3f>& points,
+                 const std::vector<Eigen::Vector3d>& path, double resolution_m) {
   const Layout layout(extent(points, path), resolution_m);
   const std::vector<MapColumn> columns = map_columns(points, layout.cell_m(), resolution_m);
   const HeightRange heights = height_range(columns);
-  Picture picture(kWidth, layout.bottom() + kFooter, kBackground);
+  const SideView side = side_of(layout, points);
+  const int side_top = layout.bottom() + kMargin / 2;
+  Picture picture(kWidth, side_top + side.height() + kFooter, kBackground);
   picture.paste(draw_columns(layout, columns, heights), 0, 0);
   draw_path(picture, layout, path);
+  draw_side(picture, layout, side, heights, path, side_top);
   const int y = picture.height() - kFooter / 2;
   draw_scale_bar(picture, layout, kMargin, y);
   draw_axes(picture, layout, {0.25 * kWidth, static_cast<double>(y)});

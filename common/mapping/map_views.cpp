@@ -12,8 +12,8 @@ void write_map_views(const std::filesystem::path& folder, const VoxelMap& map,
   centers.reserve(map.size());
   map.for_each_voxel(
       [&](const Voxel& v) { centers.push_back(center(v, map.resolution_m()).cast<float>()); });
-  std::vector<Pose2> path;
-  for (const StampedPose3& pose : trajectory) path.push_back(to_pose2(pose.pose));
+  std::vector<Eigen::Vector3d> path;
+  for (const StampedPose3& pose : trajectory) path.push_back(pose.pose.translation());
 
   io::write_tum(folder / "trajectory.tum", trajectory);
   io::write_ply(folder / "map.ply", centers, io::colours_by_height(centers));

@@ -9,8 +9,8 @@
 namespace voxlist::mapping {
 
 /// Writes into a map folder what people and other programs look at, each file atomically: map.png
-/// (from above, with the path), map.ply (voxel centres, coloured by height), trajectory.tum (the
-/// poses). Throws FileError.
+/// (from above and from the side, with the path), map.ply (voxel centres, coloured by height),
+/// trajectory.tum (the poses). Throws FileError.
 void write_map_views(const std::filesystem::path& folder, const VoxelMap& map,
                      const std::vector<StampedPose3>& trajectory);
 

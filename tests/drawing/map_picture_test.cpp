@@ -69,6 +69,30 @@ TEST(MapPicture, ShowsPathScaleAndHeights) {
   EXPECT_GT(with.count(kInk), without.count(kInk) + 40U);
 }
 
+// A ramp that rises by 1 m over 10 m.
+TEST(MapPicture, ShowsFromTheSideThatTheFloorRises) {
+  std::vector<Eigen::Vector3f> ramp;
+  std::vector<Eigen::Vector3d> path;
+  for (int x = 0; x < 100; ++x)
+    for (int y = 0; y < 40; ++y)
+      ramp.emplace_back(0.1F * static_cast<float>(x), 0.1F * static_cast<float>(y),
+                        0.01F * static_cast<float>(x));
+  const test::Pixels pixels = test::pixels_of(draw_map(ramp, path, 0.1));
+  const auto brightest_row = [&](int column) {
+    int best = 0, most = -1;
+    for (int row = pixels.height - 84 - 170; row < pixels.height - 84; ++row) {
+      const io::Rgb colour = pixels.at(column, row);
+      if (colour.r + colour.g + colour.b > most) {
+        most = colour.r + colour.g + colour.b;
+        best = row;
+      }
+    }
+    return best;
+  };
+  const int at_start = brightest_row(150), at_end = brightest_row(1390);
+  EXPECT_NEAR(at_start - at_end, 0.085 * 1460.0, 30.0) << "140 pixels are 1 m, nearly";
+}
+
 TEST(MapPicture, DrawsEvenAnEmptyMap) {
   EXPECT_EQ(draw_map({}, {}, 0.05).width(), 1540);
   EXPECT_EQ(draw_map({{1.0F, 1.0F, 1.0F}}, {}, 0.05).width(), 1540);
