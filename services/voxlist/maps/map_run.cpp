@@ -93,7 +93,7 @@ void MapRun::localise(const Scan& scan) {
   if (found.tracking()) return take(scan, found);
   note_lost(scan, found.state);
   if (is_followed(found)) return;
-  is_near(scan) ? wait(scan) : begin_piece(scan, found);
+  is_near(scan, found) ? wait(scan) : begin_piece(scan, found);
 }
 
 void MapRun::place(Scan scan, const Pose3& T_map_base) {
@@ -198,11 +198,15 @@ bool MapRun::go_back(const Scan& scan) {
 }
 
 // Whether the robot cannot be far from where it was placed last: then it sees what the map has
-// there, and the next scan, or the one after, fits.
-bool MapRun::is_near(const Scan& scan) const {
+// there, and the next scan, or the one after, fits. Where it is still followed, odometry knows how
+// far it went.
+bool MapRun::is_near(const Scan& scan, const Localisation& found) const {
   if (!is_confirmed(*now_) || now_->trajectory().empty()) return false;
   const auto since_us = scan.cloud.utime_us - now_->trajectory().back().utime_us;
-  return static_cast<double>(since_us) * 1e-6 * localiser_.max_speed_mps < kNear_m;
+  double way_m = static_cast<double>(since_us) * 1e-6 * localiser_.max_speed_mps;
+  if (!found.searched_whole_map && scan.T_odom_base && T_odom_placed_)
+    way_m = std::min(way_m, distance_m(*scan.T_odom_base, *T_odom_placed_));
+  return way_m < kNear_m;
 }
 
 // The scan belongs to no piece; at the end it is searched for.
@@ -240,6 +244,7 @@ void MapRun::begin_piece(const Scan& scan, const Localisation& elsewhere) {
 
 void MapRun::take(const Scan& scan, const Localisation& found) {
   const bool is_second = !is_confirmed(*now_);
+  T_odom_placed_ = scan.T_odom_base;
   const bool is_keyframe = now_->take(scan.cloud, found.modes.front(), scan.T_odom_base);
   if (is_second && left_ && !is_confirmed(*left_)) loosen(*left_);
   if (is_second) left_ = nullptr;
@@ -298,7 +303,11 @@ void MapRun::look_back() {
   if (back.confidence < kSureBack || !tells_a_place(back)) return;
   const Pose2 T_behind_now = to_pose2(last.T_map_base) * pose_of(back).inverse();
   const Pose2 T_by_all = behind_->T_behind_now;
-  if (same(T_behind_now, T_by_all)) join(*behind_->piece, *now_, T_by_all);
+  if (same(T_behind_now, T_by_all)) return join(*behind_->piece, *now_, T_by_all);
+  if (back.confidence < matching::kSureInReach) return;
+  if (behind_->T_look && same(T_behind_now, *behind_->T_look))
+    return join(*behind_->piece, *now_, T_behind_now);
+  behind_->T_look = T_behind_now;
 }
 
 // The smaller piece goes into the larger one.

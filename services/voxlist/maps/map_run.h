@@ -55,11 +55,13 @@ class MapRun {
 
  private:
   // The piece that a new one was begun beside, whose last scan may yet fit that one: where it said
-  // that the newest piece's origin may be, and how often that was tried.
+  // that the newest piece's origin may be, how often that was tried, and what the last try that was
+  // sure said.
   struct Behind {
     Piece* piece;
     Pose2 T_behind_now;
     int looks = 0;
+    std::optional<Pose2> T_look = std::nullopt;
   };
 
   // Where another piece may be: what a scan said that was not sure by itself.
@@ -80,7 +82,7 @@ class MapRun {
   std::int64_t count_ambiguous() const;
 
   bool go_back(const Scan& scan);
-  bool is_near(const Scan& scan) const;
+  bool is_near(const Scan& scan, const matching::Localisation& found) const;
   void wait(const Scan& scan);
   void begin_piece(const Scan& scan, const matching::Localisation& elsewhere);
   void take(const Scan& scan, const matching::Localisation& found);
@@ -104,6 +106,8 @@ class MapRun {
   Piece* now_ = nullptr;
   // The one before it, as long as the newest has but one scan, which may be the bad one.
   Piece* left_ = nullptr;
+  // Odometry where the last scan was placed.
+  std::optional<Pose2> T_odom_placed_;
   std::optional<Behind> behind_;
   std::optional<Hint> hint_;
   std::size_t searches_ = 0;
