@@ -78,14 +78,14 @@ class MapRunTest : public testing::Test {
   }
 
   // Points anywhere.
-  void see_nonsense(MapRun& run) {
+  void see_nonsense(MapRun& run, const Pose2& pose = {}) {
     simulation::Random random(static_cast<std::uint64_t>(number_) + 77);
     Cloud cloud;
     for (int i = 0; i < 3000; ++i)
       cloud.points.push_back(Eigen::Vector3d(random.uniform(-5.0, 5.0), random.uniform(-5.0, 5.0),
                                              random.uniform(0.0, 2.0))
                                  .cast<float>());
-    show(run, cloud, {});
+    show(run, cloud, pose);
   }
 
   // Every pose of the run's trajectory is where the scan was taken, in the frame of its first one.
@@ -121,10 +121,12 @@ class MapRunTest : public testing::Test {
   void show(MapRun& run, Cloud cloud, const Pose2& pose) {
     cloud.utime_us = number_ * step_us_;
     truth_.push_back(pose);
-    run.localise({number_++, std::move(cloud), std::nullopt, std::nullopt});
+    const auto T_odom_base = odometry_ ? std::optional(pose) : std::nullopt;
+    run.localise({number_++, std::move(cloud), T_odom_base, std::nullopt});
   }
 
   std::int64_t step_us_ = kStep_us;
+  bool odometry_ = false;  // exact
 
  private:
   std::int64_t number_ = 0;
@@ -164,6 +166,16 @@ TEST_F(MapRunTest, BeginsNoPieceNearTheLastPlace) {
   MapRun run(slow, {}, spool_);
   for (const double share : {0.0, 0.2}) see(run, in_room(0, share));
   for (int i = 0; i < 2; ++i) see(run, in_room(1, 0.2 * i));
+  EXPECT_EQ(run.figures().placed, 2);
+  EXPECT_EQ(run.figures().pieces, 0);
+}
+
+// However long it took: by odometry the robot has hardly moved.
+TEST_F(MapRunTest, BeginsNoPieceWhereOdometryHasTheRobotNear) {
+  odometry_ = true;
+  MapRun run({}, {}, spool_);
+  for (const double share : {0.0, 0.2}) see(run, in_room(0, share));
+  see_nonsense(run, in_room(0, 0.3));
   EXPECT_EQ(run.figures().placed, 2);
   EXPECT_EQ(run.figures().pieces, 0);
 }
@@ -240,6 +252,24 @@ TEST_F(MapRunTest, PlacesAScanAtTheEndWhereTheMapHasGrown) {
   run.finish();
   EXPECT_EQ(run.figures().placed, placed + 1);
   EXPECT_EQ(run.trajectory().front().utime_us, 0);
+  expect_true_poses(run);
+}
+
+// Both ends of the room look the same, so that a search of the whole map cannot place it.
+TEST_F(MapRunTest, PlacesAScanAtTheEndWhereOdometryHasIt) {
+  const simulation::World room(bare_room());
+  odometry_ = true;
+  MapRun run({}, {}, spool_);
+  const auto see_from = [&](double x_m) {
+    const Pose2 pose{x_m, 0.0, 0.0};
+    show(run, scan_of(room, pose, static_cast<std::uint64_t>(100.0 + 2.0 * x_m), 4.0), pose);
+  };
+  for (const double x_m : {-3.5, -3.0, 3.0}) see_from(x_m);
+  EXPECT_EQ(run.figures().placed, 2);
+  for (double x_m = -2.5; x_m < 3.0; x_m += 0.5) see_from(x_m);
+  EXPECT_EQ(run.figures().placed, 13);
+  run.finish();
+  EXPECT_EQ(run.figures().placed, 14);
   expect_true_poses(run);
 }
 

@@ -43,6 +43,14 @@ LocalisationState state_of_recognised(const Localisation& found) {
   return sure || state == LocalisationState::kLost ? state : LocalisationState::kAmbiguous;
 }
 
+Localisation from_reach(const PreparedScan& scan, const ReachMatch& reach) {
+  Localisation result = from_match(scan, reach.match);
+  for (std::size_t i = 0; i < result.modes.size(); ++i)
+    result.modes[i].probability = reach.probabilities[i];
+  result.confidence = reach.best();
+  return result;
+}
+
 // The cloud that begins a map is at the map's origin.
 Localisation origin_of_map(const PreparedScan& scan) {
   Localisation result;
@@ -156,13 +164,18 @@ Localisation Localiser::locate(const Cloud& cloud) {
 
 Localisation Localiser::recognise(const Cloud& cloud, double here) {
   return answered(cloud, std::nullopt, std::nullopt, [&](const PreparedScan& scan) {
-    const ReachMatch found = match_in_reach(matcher(), scan, anywhere(), here, Rivals::kAnywhere);
-    Localisation result = from_match(scan, found.match);
-    for (std::size_t i = 0; i < result.modes.size(); ++i)
-      result.modes[i].probability = found.probabilities[i];
-    result.confidence = found.best();
+    Localisation result =
+        from_reach(scan, match_in_reach(matcher(), scan, anywhere(), here, Rivals::kAnywhere));
     result.searched_whole_map = true;
     result.state = state_of_recognised(result);
+    return result;
+  });
+}
+
+Localisation Localiser::recognise_near(const Cloud& cloud, const UncertainPose& expected) {
+  return answered(cloud, expected.pose, std::nullopt, [&](const PreparedScan& scan) {
+    Localisation result = from_reach(scan, match_in_reach(matcher(), scan, expected, kSureInReach));
+    result.state = state_of(result);
     return result;
   });
 }

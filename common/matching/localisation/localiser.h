@@ -87,6 +87,9 @@ class Localiser {
   /// the map is.
   Localisation recognise(const Cloud& cloud, double here);
 
+  /// The same for a cloud that was taken near `expected`, T_map_base, or nowhere in the map.
+  Localisation recognise_near(const Cloud& cloud, const UncertainPose& expected);
+
   /// Goes on where another localiser is in its own map. `T_this_other`: from that map to this one.
   void take_over(Localiser& other, const Pose2& T_this_other);
 

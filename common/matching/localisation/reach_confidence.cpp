@@ -28,6 +28,24 @@ double unexplained(double support) {
   return elementary::log(1.0 - std::clamp(support, 0.0, 1.0) + kSlack);
 }
 
+// Odometry, or a velocity, is altogether wrong with this probability: wheels slip. A judgement.
+constexpr double kAstray = 0.05;
+// Of Student's distribution of three coordinates, no error at all (Gamma(3.5) / (4 pi)^1.5).
+constexpr double kLogPeak = -2.5956;
+
+// How much rarer a right place is so far from where it was expected than a wrong one, which may be
+// anywhere in the window; its logarithm. 0: not rarer, for where it was expected, chance puts wrong
+// ones too.
+double surprise(const UncertainPose& predicted, const PoseWindow& window, const MatchMode& mode) {
+  const UncertainPose expected{predicted.pose, predicted.covariance + mode.covariance};
+  const double log_right = kLogPeak - 0.5 * elementary::log(expected.covariance.determinant()) +
+                           log_student(mahalanobis2(mode.pose, expected));
+  const double log_wrong =
+      -elementary::log(8.0 * window.half_x_m * window.half_y_m * window.half_yaw_rad);
+  const double ratio = elementary::exp(std::min(0.0, log_right - log_wrong));
+  return elementary::log(kAstray + (1.0 - kAstray) * ratio);
+}
+
 double share(int part, int all) { return static_cast<double>(part) / std::max(all, 1); }
 
 // Logarithm of the odds that the first mode is right, if it is as often as not.
@@ -76,8 +94,8 @@ void join_places(std::vector<MatchMode>& modes, std::vector<double>& weights) {
 
 }  // namespace
 
-std::vector<double> rank_in_reach(const UncertainPose& predicted, double in_reach,
-                                  std::vector<MatchMode>& modes, double unseen) {
+std::vector<double> rank_in_reach(const UncertainPose& predicted, const PoseWindow& window,
+                                  double in_reach, std::vector<MatchMode>& modes, double unseen) {
   if (modes.empty()) return {};
   const auto weight = [&](const MatchMode& mode) {
     return log_student(mahalanobis2(mode.pose, predicted)) -
@@ -90,7 +108,9 @@ std::vector<double> rank_in_reach(const UncertainPose& predicted, double in_reac
     probability.push_back(elementary::exp(weight(mode) - weight(modes.front())));
   join_places(modes, probability);
   const double found =
-      1.0 / (1.0 + (1.0 - in_reach) / in_reach * elementary::exp(-log_odds(modes, unseen)));
+      1.0 / (1.0 + (1.0 - in_reach) / in_reach *
+                       elementary::exp(-log_odds(modes, unseen) -
+                                       surprise(predicted, window, modes.front())));
   double sum = 0.0;
   for (const double p : probability) sum += p;
   for (double& p : probability) p *= found / sum;

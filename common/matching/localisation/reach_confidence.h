@@ -4,6 +4,7 @@
 
 #include "voxlist/geometry/uncertain_pose.h"
 #include "voxlist/matching/engines/matcher.h"
+#include "voxlist/matching/search/pose_window.h"
 
 namespace voxlist::matching {
 
@@ -11,9 +12,11 @@ namespace voxlist::matching {
 /// how scan and map agree and how near the prediction is, the best first, and gives their
 /// probabilities. What is missing to 1 is for none of them: the scan is bad, or the robot somewhere
 /// else. `in_reach`: the probability, before the scan is looked at, that one of them is right.
-/// Coefficients were fitted by tests/bench/fits/fit_places.py.
-/// A place that is not listed may have the share `unseen` of the best one's support.
-std::vector<double> rank_in_reach(const UncertainPose& predicted, double in_reach,
-                                  std::vector<MatchMode>& modes, double unseen = 0.0);
+/// `window`: what was searched, or more. Coefficients were fitted by
+/// tests/bench/fits/fit_places.py. A place that is not listed may have the share `unseen` of the
+/// best one's support.
+std::vector<double> rank_in_reach(const UncertainPose& predicted, const PoseWindow& window,
+                                  double in_reach, std::vector<MatchMode>& modes,
+                                  double unseen = 0.0);
 
 }  // namespace voxlist::matching

@@ -31,7 +31,7 @@ ReachMatch match_in_reach(Matcher& matcher, const PreparedScan& scan,
   const bool vague = std::max(window.half_x_m, window.half_y_m) > kWidest_m;
   ReachMatch result{matcher.track(scan, vague ? std::nullopt : std::optional(window), predicted),
                     {}};
-  result.probabilities = rank_in_reach(predicted, in_reach, result.match.modes,
+  result.probabilities = rank_in_reach(predicted, window, in_reach, result.match.modes,
                                        Rivals::kAnywhere == rivals ? result.match.unseen : 0.0);
   return result;
 }

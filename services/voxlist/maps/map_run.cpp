@@ -176,6 +176,7 @@ void MapRun::erase(const Piece& piece) {
 void MapRun::note(const Scan& scan) {
   ++scans_;
   if (!first_us_) first_us_ = scan.cloud.utime_us;
+  odometry_trail_.note(scan.cloud.utime_us, scan.T_odom_base);
   odometry_ = odometry_ || scan.T_odom_base;
 }
 
@@ -352,11 +353,25 @@ void MapRun::place_loose() {
   std::erase_if(loose_, [&](const mapping::SpooledKeyframe& keyframe) {
     if (stop_requested() || ++searches_ > kLastSearches) return false;
     const Cloud cloud = spool_.read(keyframe).cloud;
-    const Localisation found = map().localiser().recognise(cloud, kReturns);
-    const bool sure = tells_a_place(found) && log_odds(found.confidence) >= kSureAlone;
-    if (sure) map().take(cloud, found.modes.front(), keyframe.T_odom_base);
-    return sure;
+    const std::optional<Pose2>& T_odom_base = keyframe.T_odom_base;
+    return place_between(cloud, T_odom_base) || place_anywhere(cloud, T_odom_base);
   });
+}
+
+// Places a scan that came while the robot was followed: the map has both of its sides now.
+bool MapRun::place_between(const Cloud& cloud, const std::optional<Pose2>& T_odom_base) {
+  const auto expected = odometry_trail_.expect(map().trajectory(), cloud.utime_us);
+  if (!expected) return false;
+  const Localisation found = map().localiser().recognise_near(cloud, *expected);
+  if (found.tracking()) map().take(cloud, found.modes.front(), T_odom_base);
+  return found.tracking();
+}
+
+bool MapRun::place_anywhere(const Cloud& cloud, const std::optional<Pose2>& T_odom_base) {
+  const Localisation found = map().localiser().recognise(cloud, kReturns);
+  const bool sure = tells_a_place(found) && log_odds(found.confidence) >= kSureAlone;
+  if (sure) map().take(cloud, found.modes.front(), T_odom_base);
+  return sure;
 }
 
 }  // namespace voxlist::desk

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "services/voxlist/maps/odometry_trail.h"
 #include "services/voxlist/maps/piece.h"
 #include "services/voxlist/maps/piece_closing.h"
 #include "services/voxlist/maps/summary.h"
@@ -96,6 +97,8 @@ class MapRun {
   bool join_one();
   bool joins_map(Piece& piece, const mapping::SpooledKeyframe& keyframe);
   void place_loose();
+  bool place_between(const Cloud& cloud, const std::optional<Pose2>& T_odom_base);
+  bool place_anywhere(const Cloud& cloud, const std::optional<Pose2>& T_odom_base);
 
   const matching::LocaliserConfig localiser_;
   const mapping::MapBuilderConfig mapper_;
@@ -120,6 +123,7 @@ class MapRun {
   std::optional<std::int64_t> first_us_;
   std::optional<LostScan> first_lost_;
   bool odometry_ = false;
+  OdometryTrail odometry_trail_;
   std::optional<matching::OdometryBias> odometry_bias_;
   std::optional<matching::Floor> floor_;
 };
