@@ -35,13 +35,15 @@ constexpr double kLogPeak = -2.5956;
 
 // How much rarer a right place is so far from where it was expected than a wrong one, which may be
 // anywhere in the window; its logarithm. 0: not rarer, for where it was expected, chance puts wrong
-// ones too.
-double surprise(const UncertainPose& predicted, const PoseWindow& window, const MatchMode& mode) {
+// ones too, or the prediction was too vague for a window and says nothing.
+double surprise(const UncertainPose& predicted, const std::optional<PoseWindow>& window,
+                const MatchMode& mode) {
+  if (!window) return 0.0;
   const UncertainPose expected{predicted.pose, predicted.covariance + mode.covariance};
   const double log_right = kLogPeak - 0.5 * elementary::log(expected.covariance.determinant()) +
                            log_student(mahalanobis2(mode.pose, expected));
   const double log_wrong =
-      -elementary::log(8.0 * window.half_x_m * window.half_y_m * window.half_yaw_rad);
+      -elementary::log(8.0 * window->half_x_m * window->half_y_m * window->half_yaw_rad);
   const double ratio = elementary::exp(std::min(0.0, log_right - log_wrong));
   return elementary::log(kAstray + (1.0 - kAstray) * ratio);
 }
@@ -94,8 +96,9 @@ void join_places(std::vector<MatchMode>& modes, std::vector<double>& weights) {
 
 }  // namespace
 
-std::vector<double> rank_in_reach(const UncertainPose& predicted, const PoseWindow& window,
-                                  double in_reach, std::vector<MatchMode>& modes, double unseen) {
+std::vector<double> rank_in_reach(const UncertainPose& predicted,
+                                  const std::optional<PoseWindow>& window, double in_reach,
+                                  std::vector<MatchMode>& modes, double unseen) {
   if (modes.empty()) return {};
   const auto weight = [&](const MatchMode& mode) {
     return log_student(mahalanobis2(mode.pose, predicted)) -

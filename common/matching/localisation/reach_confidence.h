@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "voxlist/geometry/uncertain_pose.h"
@@ -12,11 +13,11 @@ namespace voxlist::matching {
 /// how scan and map agree and how near the prediction is, the best first, and gives their
 /// probabilities. What is missing to 1 is for none of them: the scan is bad, or the robot somewhere
 /// else. `in_reach`: the probability, before the scan is looked at, that one of them is right.
-/// `window`: what was searched, or more. Coefficients were fitted by
+/// `window`: what was searched; nothing: the whole map. Coefficients were fitted by
 /// tests/bench/fits/fit_places.py. A place that is not listed may have the share `unseen` of the
 /// best one's support.
-std::vector<double> rank_in_reach(const UncertainPose& predicted, const PoseWindow& window,
-                                  double in_reach, std::vector<MatchMode>& modes,
-                                  double unseen = 0.0);
+std::vector<double> rank_in_reach(const UncertainPose& predicted,
+                                  const std::optional<PoseWindow>& window, double in_reach,
+                                  std::vector<MatchMode>& modes, double unseen = 0.0);
 
 }  // namespace voxlist::matching

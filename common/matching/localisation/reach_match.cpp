@@ -27,10 +27,9 @@ PoseWindow window_of(const UncertainPose& predicted) {
 
 ReachMatch match_in_reach(Matcher& matcher, const PreparedScan& scan,
                           const UncertainPose& predicted, double in_reach, Rivals rivals) {
-  const PoseWindow window = window_of(predicted);
-  const bool vague = std::max(window.half_x_m, window.half_y_m) > kWidest_m;
-  ReachMatch result{matcher.track(scan, vague ? std::nullopt : std::optional(window), predicted),
-                    {}};
+  std::optional<PoseWindow> window = window_of(predicted);
+  if (std::max(window->half_x_m, window->half_y_m) > kWidest_m) window.reset();
+  ReachMatch result{matcher.track(scan, window, predicted), {}};
   result.probabilities = rank_in_reach(predicted, window, in_reach, result.match.modes,
                                        Rivals::kAnywhere == rivals ? result.match.unseen : 0.0);
   return result;

@@ -193,6 +193,7 @@ bool MapRun::go_back(const Scan& scan) {
       left_->localiser().localise(scan.cloud, scan.T_odom_base, scan.odometry_tilt);
   if (!found.tracking()) return false;
   loosen(*std::exchange(now_, std::exchange(left_, nullptr)));
+  behind_.reset();
   hint_.reset();
   take(scan, found);
   return true;

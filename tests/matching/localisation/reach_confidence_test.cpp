@@ -29,7 +29,7 @@ MatchMode place(double x_m, double support) {
 
 double sure_of(const MatchMode& mode, const UncertainPose& predicted) {
   std::vector<MatchMode> modes{mode};
-  return rank_in_reach(predicted, {{}, 0.5, 0.5, 0.1}, kInReach, modes).front();
+  return rank_in_reach(predicted, PoseWindow{{}, 0.5, 0.5, 0.1}, kInReach, modes).front();
 }
 
 double log_odds(double p) { return std::log(p / (1.0 - p)); }
