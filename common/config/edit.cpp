@@ -74,6 +74,36 @@ toml::source_index last_line(const toml::table& table) {
   return last;
 }
 
+using Values = std::vector<std::pair<std::string, std::string>>;
+
+// Those of the values that the table does not have yet, as lines; the others get their places.
+std::vector<std::string> replace_old(const toml::table& table, const Values& values,
+                                     Editor& editor) {
+  std::vector<std::string> added;
+  for (const auto& [key, value] : values) {
+    const toml::node* const old = table.get(key);
+    if (old != nullptr)
+      editor.replace(old->source().begin, value);
+    else
+      added.push_back(key + " = " + value);
+  }
+  return added;
+}
+
+void edit(const toml::table& table, const Values& values, Editor& editor) {
+  const std::vector<std::string> added = replace_old(table, values, editor);
+  editor.insert_behind(last_line(table), added);
+}
+
+std::string new_table(const std::string& table, const Values& values, Editor& editor) {
+  std::vector<std::string> added;
+  if (editor.lines() > 0) added.emplace_back();
+  added.push_back("[" + table + "]");
+  for (const auto& [key, value] : values) added.push_back(key + " = " + value);
+  editor.insert_behind(editor.lines(), added);
+  return editor.text();
+}
+
 }  // namespace
 
 std::string with_numbers(const std::string& text, const std::string& table,
@@ -81,22 +111,23 @@ std::string with_numbers(const std::string& text, const std::string& table,
   const toml::table document = parse(text);
   const toml::table* const found = document[table].as_table();
   Editor editor(text);
-  if (document.contains(table) &&
-      (found == nullptr || !editor.starts_with_bracket(found->source().begin.line)))
+  if (!document.contains(table)) return new_table(table, values, editor);
+  if (found == nullptr || !editor.starts_with_bracket(found->source().begin.line))
     throw std::runtime_error(fmt::format("write the keys of {0} under a line [{0}]", table));
+  edit(*found, values, editor);
+  return editor.text();
+}
 
-  std::vector<std::string> added;
-  if (found == nullptr && !text.empty()) added.emplace_back();
-  if (found == nullptr) added.push_back("[" + table + "]");
-  for (const auto& [key, value] : values) {
-    const toml::node* const old = found == nullptr ? nullptr : found->get(key);
-    if (old != nullptr) {
-      editor.replace(old->source().begin, value);
-    } else {
-      added.push_back(key + " = " + value);
-    }
-  }
-  editor.insert_behind(found == nullptr ? editor.lines() : last_line(*found), added);
+std::string with_numbers_of_entry(const std::string& text, const std::string& table,
+                                  const std::string& array, std::size_t number,
+                                  const std::vector<std::pair<std::string, std::string>>& values) {
+  const toml::table document = parse(text);
+  const toml::table* const entry = document[table][array][number].as_table();
+  Editor editor(text);
+  if (entry == nullptr || !editor.starts_with_bracket(entry->source().begin.line))
+    throw std::runtime_error(
+        fmt::format("write each of {0}.{1} under a line [[{0}.{1}]]", table, array));
+  edit(*entry, values, editor);
   return editor.text();
 }
 

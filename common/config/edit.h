@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,5 +14,10 @@ namespace voxlist::config {
 /// writes the table in another way than under a line `[table]`.
 std::string with_numbers(const std::string& text, const std::string& table,
                          const std::vector<std::pair<std::string, std::string>>& values);
+
+/// The same for the tables [[table.array]]: the one with this number, from 0, which must be there.
+std::string with_numbers_of_entry(const std::string& text, const std::string& table,
+                                  const std::string& array, std::size_t number,
+                                  const std::vector<std::pair<std::string, std::string>>& values);
 
 }  // namespace voxlist::config

@@ -40,6 +40,17 @@ TEST(Edit, ReplacesANumberInItsPlaceAndKeepsTheRest) {
       expected);
 }
 
+TEST(Edit, SetsNumbersOfOneOfSeveralTables) {
+  const std::string text =
+      "[a]\nx = 1\n[[a.b]]\nname = \"first\"\nz = 1\n\n[[a.b]] # second\nz = 2 # m\nend = "
+      "0\n\n[c]\n";
+  EXPECT_EQ(with_numbers_of_entry(text, "a", "b", 1, {{"z", "2.5"}, {"yaw", "3"}}),
+            "[a]\nx = 1\n[[a.b]]\nname = \"first\"\nz = 1\n\n[[a.b]] # second\nz = 2.5 # m\nend = "
+            "0\nyaw = 3\n\n[c]\n");
+  EXPECT_THROW(with_numbers_of_entry(text, "a", "b", 2, {}), std::runtime_error);
+  EXPECT_THROW(with_numbers_of_entry("a = {b = [{z = 1}]}", "a", "b", 0, {}), std::runtime_error);
+}
+
 TEST(Edit, AddsATableAtTheEnd) {
   EXPECT_EQ(with_numbers("", "a", {{"x", "1.5"}}), "[a]\nx = 1.5\n");
   EXPECT_EQ(with_numbers("[b]\ny = 1", "a", {{"x", "1.5"}}), "[b]\ny = 1\n\n[a]\nx = 1.5\n");

@@ -1,4 +1,4 @@
-#include "voxlist/calibration/calibrate.h"
+#include "services/voxlist/commands/calibrate.h"
 
 #include <fmt/core.h>
 
@@ -7,28 +7,15 @@
 #include <stdexcept>
 
 #include "services/voxlist/commands/command.h"
-#include "services/voxlist/commands/settings.h"
 #include "services/voxlist/output/console.h"
 #include "services/voxlist/recording/scanner_log.h"
+#include "voxlist/calibration/calibrate.h"
 #include "voxlist/config/edit.h"
 #include "voxlist/io/files/atomic_file.h"
 #include "voxlist/io/files/file.h"
 
 namespace voxlist::desk {
 namespace {
-
-struct CalibrateOptions {
-  std::filesystem::path log;
-  std::filesystem::path config;
-  std::filesystem::path output;
-  PrefixOption prefix;
-
-  // Where the scanner's present settings stand: nowhere at first.
-  std::filesystem::path settings() const {
-    const bool updates = config.empty() && std::filesystem::exists(output);
-    return updates ? output : config;
-  }
-};
 
 constexpr auto kTable = "cloud_assembler";
 
@@ -69,26 +56,6 @@ Values values_of(const calibration::CalibrationAnswer& answer) {
   return values;
 }
 
-std::string edited(const std::filesystem::path& file, const Values& values) {
-  try {
-    return config::with_numbers(file.empty() ? "" : io::read_file(file), kTable, values);
-  } catch (const io::FileError&) {
-    throw;
-  } catch (const std::runtime_error& error) {
-    throw io::FileError(file, error.what());
-  }
-}
-
-void give(const CalibrateOptions& options, const Values& values, Console& console) {
-  if (options.output.empty()) {
-    std::string lines = config::with_numbers("", kTable, values);
-    lines.pop_back();
-    return console.say(lines);
-  }
-  io::write_file_atomically(options.output, edited(options.settings(), values));
-  console.say(options.output.string());
-}
-
 int run(const CalibrateOptions& options, Console& console) {
   const scanner::CloudAssemblerConfig scanner = read_scanner_settings(options.settings());
   const calibration::Calibration result = calibration::calibrate(
@@ -97,29 +64,71 @@ int run(const CalibrateOptions& options, Console& console) {
   for (const std::string& warning : result.warnings) console.warn(warning);
   for (const std::string& refusal : result.refusals) console.warn("refused: " + refusal);
   if (!result.refusals.empty()) return 1;
-  give(options, values_of(*result.answer), console);
+  const auto edit = [&](const std::string& text) {
+    return config::with_numbers(text, kTable, values_of(*result.answer));
+  };
+  give(options, "", edit, console);
   return 0;
 }
 
+std::string edited(const std::filesystem::path& file,
+                   const std::function<std::string(const std::string&)>& edit) {
+  try {
+    return edit(file.empty() ? "" : io::read_file(file));
+  } catch (const io::FileError&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    throw io::FileError(file, error.what());
+  }
+}
+
 }  // namespace
+
+std::filesystem::path CalibrateOptions::settings() const {
+  const bool updates = config.empty() && std::filesystem::exists(output);
+  return updates ? output : config;
+}
+
+void give(const CalibrateOptions& options, const std::string& none,
+          const std::function<std::string(const std::string&)>& edit, Console& console) {
+  if (options.output.empty()) {
+    std::string lines = edit(none);
+    lines.pop_back();
+    return console.say(lines);
+  }
+  io::write_file_atomically(options.output, edited(options.settings(), edit));
+  console.say(options.output.string());
+}
 
 void add_calibrate(CLI::App& program, Command& chosen) {
   CLI::App* command = program.add_subcommand(
       "calibrate",
       "Finds the scanner's mirror phases, heights, tilts and latency from a minute of a still "
-      "room.");
+      "room; or a 3D laser's mount and latency from a drive.");
   const auto options = std::make_shared<CalibrateOptions>();
-  command->add_option("LOG", options->log, "LCM log with LASER, MIRROR and ODOMETRY")->required();
+  command
+      ->add_option(
+          "LOG", options->log,
+          "LCM log with LASER, MIRROR and ODOMETRY; with --laser: with the laser's channel "
+          "and ODOMETRY")
+      ->required();
+  command->add_flag("--laser", options->laser,
+                    "the mount of a 3D laser, a sensor of [cloud_adapter], from two minutes' drive "
+                    "with turns on a level floor");
+  command->add_option("--channel", options->channel, "which of several sensors");
   command->add_option("--config", options->config,
                       "the robot's settings to start from; default: those of -o, if there");
   command->add_option("-o,--output", options->output,
                       "the robot's settings to write; without it the lines are only shown");
   options->prefix.add_to(*command);
   command->footer(
-      "Example:\n"
-      "  voxlist calibrate still.lcm -o services/robot.toml");
+      "Examples:\n"
+      "  voxlist calibrate still.lcm -o services/robot.toml\n"
+      "  voxlist calibrate --laser drive.lcm -o services/robot.toml");
   command->callback([options, &chosen] {
-    chosen = [options](Console& console) { return run(*options, console); };
+    chosen = [options](Console& console) {
+      return options->laser ? calibrate_laser(*options, console) : run(*options, console);
+    };
   });
 }
 
