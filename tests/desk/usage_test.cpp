@@ -34,8 +34,8 @@ class Usage : public testing::Test {
 
 TEST_F(Usage, IsExplainedWithExamplesByEachCommand) {
   for (const std::string command :
-       {"import", "map", "extend", "rebuild", "localise", "evaluate", "info", "export", "octomap",
-        "simulate", "calibrate", "watch", "health", "bus"}) {
+       {"import", "map", "extend", "merge", "rebuild", "localise", "evaluate", "info", "export",
+        "octomap", "simulate", "calibrate", "watch", "health", "bus"}) {
     const test::DeskRun run = test::run({command, "--help"});
     EXPECT_EQ(run.exit_code, 0);
     EXPECT_THAT(run.out, HasSubstr("  voxlist " + command + " "));
@@ -54,8 +54,8 @@ TEST_F(Usage, ThatIsWrongHasAnExitCodeOfItsOwn) {
 
 TEST_F(Usage, NamesAWordThatNoCommandKnows) {
   for (const std::string command :
-       {"import", "map", "extend", "rebuild", "localise", "evaluate", "info", "export", "octomap",
-        "simulate", "calibrate", "watch", "bus"}) {
+       {"import", "map", "extend", "merge", "rebuild", "localise", "evaluate", "info", "export",
+        "octomap", "simulate", "calibrate", "watch", "bus"}) {
     const test::DeskRun run = test::run({command, "a", "b", "-o", "c", "--unheard-of", "d", "e"});
     EXPECT_GT(run.exit_code, 100) << command;
     EXPECT_THAT(run.err, HasSubstr("--unheard-of")) << command;

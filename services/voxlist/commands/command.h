@@ -18,6 +18,7 @@ using Command = std::function<int(Console&)>;
 void add_import(CLI::App& program, Command& chosen);
 void add_map(CLI::App& program, Command& chosen);
 void add_extend(CLI::App& program, Command& chosen);
+void add_merge(CLI::App& program, Command& chosen);
 void add_rebuild(CLI::App& program, Command& chosen);
 void add_localise(CLI::App& program, Command& chosen);
 void add_evaluate(CLI::App& program, Command& chosen);

@@ -70,6 +70,7 @@ int run_desk(std::vector<std::string> arguments, Console& console) {
   add_import(program, chosen);
   add_map(program, chosen);
   add_extend(program, chosen);
+  add_merge(program, chosen);
   add_rebuild(program, chosen);
   add_localise(program, chosen);
   add_evaluate(program, chosen);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "services/voxlist/recording/scan_input.h"
@@ -39,6 +40,11 @@ class Piece {
 
   /// Adds a scan to the map at its pose.
   void add(Cloud cloud, const Pose3& T_piece_base);
+
+  /// Takes the poses of all scans that were placed, where they were placed elsewhere.
+  void set_trajectory(std::vector<StampedPose3> T_piece_base) {
+    trajectory_ = std::move(T_piece_base);
+  }
 
   /// Makes the map anew with its keyframes at these poses, in their order; other scans keep their
   /// place beside the keyframe that was taken next before or after them.

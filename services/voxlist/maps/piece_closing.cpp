@@ -11,12 +11,16 @@ namespace {
 
 using Poses = std::vector<Pose2>;
 
-std::vector<std::size_t> by_time(const std::vector<StampedPose3>& keyframes) {
+std::vector<std::size_t> by_time(const std::vector<StampedPose3>& keyframes,
+                                 std::size_t first_session) {
   std::vector<std::size_t> order(keyframes.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+  const auto earlier = [&](std::size_t a, std::size_t b) {
     return keyframes[a].utime_us < keyframes[b].utime_us;
-  });
+  };
+  const auto second = order.begin() + static_cast<std::ptrdiff_t>(first_session);
+  std::stable_sort(order.begin(), second, earlier);
+  std::stable_sort(second, order.end(), earlier);
   return order;
 }
 
@@ -31,18 +35,17 @@ Poses in_piece(const Poses& closed, const std::vector<std::size_t>& order, const
   return poses;
 }
 
-// Loops are closed in the plane, between level clouds.
+}  // namespace
+
 Cloud level_cloud(mapping::KeyframeSpool& spool, const mapping::SpooledKeyframe& keyframe) {
   Cloud cloud = spool.read(keyframe).cloud;
   const Tilt tilt = tilt_of(keyframe.T_map_base);
   return tilt == Tilt{} ? cloud : moved(to_level(tilt), cloud);
 }
 
-}  // namespace
-
 PieceClosing close_piece(Piece& piece, mapping::KeyframeSpool& spool,
-                         const matching::MatcherConfig& config) {
-  const std::vector<std::size_t> order = by_time(piece.builder().poses());
+                         const matching::MatcherConfig& config, std::size_t first_session) {
+  const std::vector<std::size_t> order = by_time(piece.builder().poses(), first_session);
   const auto& keyframes = piece.keyframes();
   Poses before;
   mapping::DriveOdometry odometry;

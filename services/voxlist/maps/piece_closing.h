@@ -12,10 +12,14 @@ struct PieceClosing {
   double moved_m = 0.0;
 };
 
+/// A keyframe's cloud as a level robot has it: poses are searched for in the plane.
+Cloud level_cloud(mapping::KeyframeSpool& spool, const mapping::SpooledKeyframe& keyframe);
+
 /// Closes the loops of a piece, whose keyframes are all in the spool: where its drive came back to
 /// ground of long before, its keyframes go where all scans agree, and its map is made anew. The
-/// keyframe that is the piece's origin stays.
+/// keyframe that is the piece's origin stays. `first_session`: so many of its keyframes were taken
+/// before the others, whatever their times say; 0: their times are right.
 PieceClosing close_piece(Piece& piece, mapping::KeyframeSpool& spool,
-                         const matching::MatcherConfig& config);
+                         const matching::MatcherConfig& config, std::size_t first_session = 0);
 
 }  // namespace voxlist::desk

@@ -1,0 +1,177 @@
+#include "services/voxlist/maps/meeting.h"
+
+#include <algorithm>
+#include <map>
+
+#include "services/voxlist/maps/piece_closing.h"
+#include "services/voxlist/output/stop.h"
+#include "voxlist/mapping/loops/local_map.h"
+
+namespace voxlist::desk {
+namespace {
+
+// It is asked from keyframes so far (m) apart: what a scan shows changes with the place.
+constexpr double kEach_m = 2.0;
+constexpr std::size_t kMostSearches = 60;
+// Before a scan is looked at, it was taken where the map is with this probability.
+constexpr double kHere = 0.5;
+// What one scan says of the other map's place is looked into from this probability on.
+constexpr double kHint = 0.5;
+constexpr std::size_t kMostHints = 8;
+// A scan that was taken as near to one of the map's as this share of how far it reaches sees mostly
+// the map's ground.
+constexpr double kMeetsShare = 0.5;
+// It is looked for there by so much (m, rad): both maps are bent a little.
+constexpr double kBent_m = 0.3, kBent_rad = 0.02;
+// So many of the map's keyframes are matched with.
+constexpr std::size_t kRound = 4;
+// Scans fit where they are right rather than not. So many must, and such a share of those on the
+// map's ground, as for loops (mapping/graph/loop_choice.cpp).
+constexpr double kFits = 0.5;
+constexpr std::size_t kFewest = 4;
+constexpr double kLeastShare = 0.6;
+// Two places are one if a scan fits both within this (m).
+constexpr double kSame_m = 0.5;
+
+// What speaks for one place.
+struct Place {
+  Pose2 T_map_other;
+  std::size_t asked = 0;
+  // T_map_base of each of the other's keyframes that fits.
+  std::map<std::size_t, Pose2> fitting;
+
+  bool enough() const {
+    return fitting.size() >= kFewest &&
+           static_cast<double>(fitting.size()) >= kLeastShare * static_cast<double>(asked);
+  }
+
+  bool is(const Place& place) const {
+    return std::any_of(fitting.begin(), fitting.end(), [&](const auto& fit) {
+      const auto at = place.fitting.find(fit.first);
+      return at != place.fitting.end() && distance_m(at->second, fit.second) < kSame_m;
+    });
+  }
+};
+
+struct Hint {
+  double probability;
+  Pose2 T_map_other;
+};
+
+class Search {
+ public:
+  Search(Piece& map, const Piece& other, mapping::KeyframeSpool& spool,
+         const matching::MatcherConfig& config)
+      : map_(map), other_(other), spool_(spool), config_(config) {
+    for (std::size_t i = 0; i < other.keyframes().size(); ++i)
+      if (asked_.empty() || distance_m(pose(other, asked_.back()), pose(other, i)) >= kEach_m)
+        asked_.push_back(i);
+  }
+
+  Meeting find() {
+    std::vector<Place> places;
+    for (const Hint& hint : hints()) {
+      if (stop_requested() || places.size() == kMostHints) break;
+      if (!is_known(places, hint)) places.push_back(look_into(hint.T_map_other));
+    }
+    return judge(places);
+  }
+
+ private:
+  static Pose2 pose(const Piece& piece, std::size_t i) {
+    return to_pose2(piece.keyframes()[i].T_map_base);
+  }
+
+  // What single scans say, the surest first.
+  std::vector<Hint> hints() {
+    std::vector<Hint> hints;
+    const std::size_t each = asked_.size() / kMostSearches + 1;
+    for (std::size_t i = 0; i < asked_.size() && !stop_requested(); i += each) {
+      const auto found =
+          map_.localiser().recognise(level_cloud(spool_, other_.keyframes()[asked_[i]]), kHere);
+      if (found.modes.empty() || found.confidence < kHint) continue;
+      const Pose2& T_map_base = found.modes.front().T_map_base;
+      hints.push_back({found.confidence, T_map_base * pose(other_, asked_[i]).inverse()});
+    }
+    std::stable_sort(hints.begin(), hints.end(),
+                     [](const Hint& a, const Hint& b) { return a.probability > b.probability; });
+    return hints;
+  }
+
+  // Whether it says what a place says that was looked into.
+  bool is_known(const std::vector<Place>& places, const Hint& hint) const {
+    return std::any_of(places.begin(), places.end(), [&](const Place& place) {
+      return std::any_of(place.fitting.begin(), place.fitting.end(), [&](const auto& fit) {
+        return distance_m(fit.second, hint.T_map_other * pose(other_, fit.first)) < kSame_m;
+      });
+    });
+  }
+
+  Place look_into(const Pose2& T_map_other) {
+    Place place{T_map_other, 0, {}};
+    for (const std::size_t i : asked_) {
+      const Pose2 T_map_base = T_map_other * pose(other_, i);
+      const Cloud cloud = level_cloud(spool_, other_.keyframes()[i]);
+      const matching::PreparedScan scan(cloud, config_.scan);
+      const std::vector<std::size_t> round = map_round(T_map_base);
+      if (distance_m(pose(map_, round.front()), T_map_base) > kMeetsShare * scan.reach_m())
+        continue;
+      ++place.asked;
+      if (const auto fit = fitted(round, scan, T_map_base)) place.fitting.emplace(i, *fit);
+    }
+    return place;
+  }
+
+  // The map's keyframes nearest to a pose, the nearest first.
+  std::vector<std::size_t> map_round(const Pose2& T_map_base) const {
+    std::vector<std::pair<double, std::size_t>> near;
+    for (std::size_t i = 0; i < map_.keyframes().size(); ++i)
+      near.emplace_back(distance_m(pose(map_, i), T_map_base), i);
+    const std::size_t round = std::min(kRound, near.size());
+    std::partial_sort(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(round), near.end());
+    std::vector<std::size_t> taken;
+    for (std::size_t i = 0; i < round; ++i) taken.push_back(near[i].second);
+    return taken;
+  }
+
+  std::optional<Pose2> fitted(const std::vector<std::size_t>& round,
+                              const matching::PreparedScan& scan, const Pose2& T_map_base) {
+    const Pose2 T_map_local = pose(map_, round.front());
+    mapping::LocalMap map(config_);
+    for (const std::size_t i : round)
+      map.add(level_cloud(spool_, map_.keyframes()[i]), T_map_local.inverse() * pose(map_, i));
+    const Eigen::Vector3d bent(kBent_m, kBent_m, kBent_rad);
+    const auto found =
+        map.match(scan, {T_map_local.inverse() * T_map_base, bent.cwiseAbs2().asDiagonal()});
+    if (found.best() < kFits) return std::nullopt;
+    return T_map_local * found.match.modes.front().pose;
+  }
+
+  Meeting judge(const std::vector<Place>& places) const {
+    const auto best = std::max_element(
+        places.begin(), places.end(),
+        [](const Place& a, const Place& b) { return a.fitting.size() < b.fitting.size(); });
+    if (best == places.end()) return {};
+    Meeting meeting{std::nullopt, best->asked, best->fitting.size(), false};
+    meeting.alike = std::any_of(places.begin(), places.end(), [&](const Place& place) {
+      return &place != &*best && place.enough() && !place.is(*best);
+    });
+    if (best->enough() && !meeting.alike) meeting.T_map_other = best->T_map_other;
+    return meeting;
+  }
+
+  Piece& map_;
+  const Piece& other_;
+  mapping::KeyframeSpool& spool_;
+  const matching::MatcherConfig config_;
+  std::vector<std::size_t> asked_;
+};
+
+}  // namespace
+
+Meeting find_meeting(Piece& map, const Piece& other, mapping::KeyframeSpool& spool,
+                     const matching::MatcherConfig& config) {
+  return Search(map, other, spool, config).find();
+}
+
+}  // namespace voxlist::desk
