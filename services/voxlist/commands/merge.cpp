@@ -130,21 +130,20 @@ int merge(const MergeOptions& options, Console& console) {
   const auto piece = read_piece(options.first, settings, spool, console);
   const auto other = read_piece(options.second, settings, spool, console);
   const matching::MatcherConfig& matcher = settings.localiser.matcher;
-  const std::size_t first_session = piece->keyframes().size();
   const Meeting meeting = find_meeting(*piece, *other, spool, matcher);
   refuse_after_interrupt(options.folder);
   if (!meeting.T_map_other) {
     console.warn(refusal(options, meeting));
     return kNotSure;
   }
+  piece->begin_session();
   piece->join(*other, *meeting.T_map_other);
-  const RunFigures figures =
-      figures_of(options, *piece, close_piece(*piece, spool, matcher, first_session));
+  const RunFigures figures = figures_of(options, *piece, close_piece(*piece, spool, matcher));
   refuse_after_interrupt(options.folder);
   write(options, settings, *piece, spool, figures, console);
   console.say(fmt::format(
       "{} of {} scans on ground of both fit: {} and {} keyframes, {} voxels, hash {}",
-      meeting.fitting, meeting.asked, first_session, piece->keyframes().size() - first_session,
+      meeting.fitting, meeting.asked, piece->first_session(), other->keyframes().size(),
       piece->builder().map().occupied.size(), hash_text(piece->builder().map().occupied)));
   if (const std::string loops = closed_loops(figures); !loops.empty()) console.say(loops);
   console.say((options.folder / "map.png").string());

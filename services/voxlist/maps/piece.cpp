@@ -5,18 +5,6 @@
 #include <utility>
 
 namespace voxlist::desk {
-namespace {
-
-// The keyframe that was taken nearest in time.
-std::size_t nearest(const std::vector<StampedPose3>& keyframes, std::int64_t utime_us) {
-  const auto away_us = [&](const StampedPose3& k) { return std::abs(k.utime_us - utime_us); };
-  const auto at =
-      std::min_element(keyframes.begin(), keyframes.end(),
-                       [&](const auto& a, const auto& b) { return away_us(a) < away_us(b); });
-  return static_cast<std::size_t>(at - keyframes.begin());
-}
-
-}  // namespace
 
 Piece::Piece(const matching::LocaliserConfig& localiser, mapping::MapBuilder map,
              mapping::KeyframeSpool& spool, Keep keep)
@@ -47,10 +35,25 @@ void Piece::move_keyframes(const std::vector<Pose2>& T_piece_base) {
     pose = to_pose3(T_piece_base[i], tilt_of(pose));
     builder_.add(spool_.read(keyframes_[i]));
   }
-  for (StampedPose3& placed : trajectory_) {
-    const std::size_t i = nearest(before, placed.utime_us);
-    placed.pose = keyframes_[i].T_map_base * before[i].pose.inverse() * placed.pose;
+  for (std::size_t scan = 0; scan < trajectory_.size(); ++scan) {
+    const std::size_t i = keyframe_beside(scan, before);
+    Pose3& pose = trajectory_[scan].pose;
+    pose = keyframes_[i].T_map_base * before[i].pose.inverse() * pose;
   }
+}
+
+// The keyframe of the scan's session that was taken nearest in time.
+std::size_t Piece::keyframe_beside(std::size_t scan,
+                                   const std::vector<StampedPose3>& keyframes) const {
+  const auto away_us = [&](const StampedPose3& keyframe) {
+    return std::abs(keyframe.utime_us - trajectory_[scan].utime_us);
+  };
+  const auto second = keyframes.begin() + static_cast<std::ptrdiff_t>(first_session());
+  const bool in_first = scan < second_session_.scan;
+  const auto at =
+      std::min_element(in_first ? keyframes.begin() : second, in_first ? second : keyframes.end(),
+                       [&](const auto& a, const auto& b) { return away_us(a) < away_us(b); });
+  return static_cast<std::size_t>(at - keyframes.begin());
 }
 
 void Piece::join(const Piece& other, const Pose2& T_this_other) {

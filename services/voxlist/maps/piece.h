@@ -46,14 +46,27 @@ class Piece {
     trajectory_ = std::move(T_piece_base);
   }
 
+  /// What it takes from now on is of another session, later than all before, whatever the times of
+  /// both say.
+  void begin_session() { second_session_ = {keyframes_.size(), trajectory_.size()}; }
+
+  /// So many keyframes are of the session before; 0 where there is but one.
+  std::size_t first_session() const { return second_session_.keyframe; }
+
   /// Makes the map anew with its keyframes at these poses, in their order; other scans keep their
-  /// place beside the keyframe that was taken next before or after them.
+  /// place beside the keyframe of their session that was taken next before or after them.
   void move_keyframes(const std::vector<Pose2>& T_piece_base);
 
   /// Takes all that another piece has; `T_this_other` is from that piece to this one.
   void join(const Piece& other, const Pose2& T_this_other);
 
  private:
+  // Where a session begins.
+  struct Begin {
+    std::size_t keyframe = 0, scan = 0;
+  };
+
+  std::size_t keyframe_beside(std::size_t scan, const std::vector<StampedPose3>& keyframes) const;
   void add(mapping::Keyframe keyframe, const std::optional<Pose2>& T_odom_base);
   mapping::Keyframe add_to_map(mapping::Keyframe keyframe);
 
@@ -63,6 +76,7 @@ class Piece {
   matching::Localiser localiser_;
   std::vector<StampedPose3> trajectory_;
   std::vector<mapping::SpooledKeyframe> keyframes_;
+  Begin second_session_;
 };
 
 }  // namespace voxlist::desk

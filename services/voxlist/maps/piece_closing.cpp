@@ -44,8 +44,8 @@ Cloud level_cloud(mapping::KeyframeSpool& spool, const mapping::SpooledKeyframe&
 }
 
 PieceClosing close_piece(Piece& piece, mapping::KeyframeSpool& spool,
-                         const matching::MatcherConfig& config, std::size_t first_session) {
-  const std::vector<std::size_t> order = by_time(piece.builder().poses(), first_session);
+                         const matching::MatcherConfig& config) {
+  const std::vector<std::size_t> order = by_time(piece.builder().poses(), piece.first_session());
   const auto& keyframes = piece.keyframes();
   Poses before;
   mapping::DriveOdometry odometry;

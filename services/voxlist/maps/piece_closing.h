@@ -17,9 +17,8 @@ Cloud level_cloud(mapping::KeyframeSpool& spool, const mapping::SpooledKeyframe&
 
 /// Closes the loops of a piece, whose keyframes are all in the spool: where its drive came back to
 /// ground of long before, its keyframes go where all scans agree, and its map is made anew. The
-/// keyframe that is the piece's origin stays. `first_session`: so many of its keyframes were taken
-/// before the others, whatever their times say; 0: their times are right.
+/// keyframe that is the piece's origin stays.
 PieceClosing close_piece(Piece& piece, mapping::KeyframeSpool& spool,
-                         const matching::MatcherConfig& config, std::size_t first_session = 0);
+                         const matching::MatcherConfig& config);
 
 }  // namespace voxlist::desk

@@ -47,5 +47,23 @@ TEST(Piece, MakesItsMapAnewWhereKeyframesAreMoved) {
   EXPECT_LT(distance_m(to_pose2(piece.keyframes()[1].T_map_base), moved), 1e-9);
 }
 
+TEST(Piece, MovesAScanWithAKeyframeOfItsOwnSession) {
+  const test::TemporaryFolder folder;
+  mapping::KeyframeSpool spool(folder.path());
+  Piece piece({}, mapping::MapBuilder(), spool), other({}, mapping::MapBuilder(), spool);
+  piece.add(wall(0, 1.0F), Pose3::Identity());
+  other.add(wall(0, 3.0F), Pose3::Identity());
+  piece.begin_session();
+  piece.join(other, {4.0, 0.0, 0.0});
+  EXPECT_EQ(piece.first_session(), 1u);
+
+  const Pose2 moved{4.5, 0.0, 0.0};
+  piece.move_keyframes({{}, moved});
+
+  ASSERT_EQ(piece.trajectory().size(), 2u);
+  EXPECT_LT(distance_m(to_pose2(piece.trajectory()[0].pose), {}), 1e-9);
+  EXPECT_LT(distance_m(to_pose2(piece.trajectory()[1].pose), moved), 1e-9);
+}
+
 }  // namespace
 }  // namespace voxlist::desk
