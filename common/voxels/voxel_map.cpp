@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdlib>
+#include <limits>
 #include <numeric>
 #include <stdexcept>
 
@@ -87,9 +88,12 @@ std::size_t VoxelMap::memory_bytes() const {
 }
 
 std::optional<VoxelBox> VoxelMap::bounds() const {
-  if (blocks_.empty()) return std::nullopt;
-  Voxel low = positions_.key(0), high = low;
-  for (const Voxel& at : positions_.keys()) {
+  if (empty()) return std::nullopt;
+  constexpr std::int32_t kFar = std::numeric_limits<std::int32_t>::max();
+  Voxel low{kFar, kFar, kFar}, high{-kFar, -kFar, -kFar};
+  for (std::size_t i = 0; i < blocks_.size(); ++i) {
+    const Voxel& at = positions_.key(i);
+    if (blocks_[i] == VoxelBlock{}) continue;
     low = {std::min(low.x, at.x), std::min(low.y, at.y), std::min(low.z, at.z)};
     high = {std::max(high.x, at.x), std::max(high.y, at.y), std::max(high.z, at.z)};
   }

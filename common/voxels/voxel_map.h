@@ -54,7 +54,7 @@ class VoxelMap {
   std::size_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
 
-  /// The box of the map's blocks; none without blocks. Looks at every block.
+  /// The box of the map's blocks with voxels; none without voxels. Looks at every block.
   std::optional<VoxelBox> bounds() const;
 
   /// Tells states apart: after each change the number is another one, which no other map has had,

@@ -120,7 +120,7 @@ void LocaliserService::take_map(const map_update_t& message) {
     // What the first cloud stood in for is here now.
     if (origin_ && change.base_version == 0) change.base_version = bus::kWholeMap;
     const bus::AppliedChange applied = bus::apply(change, map_);
-    if (!applied.replaced) localiser_.map_grew(applied.grown);
+    if (!applied.replaced) localiser_.map_changed(applied.changed);
   }
   follow_mapper();
 }

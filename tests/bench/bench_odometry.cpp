@@ -78,7 +78,7 @@ std::vector<Figure> run(const simulation::BuildingConfig& config, double length_
     start_ms = cpu_ms();
     if (map.wants(scan, pose)) {
       map.add({to_pose3(pose), scan});
-      localiser.map_grew(map.changed_blocks());
+      localiser.map_changed(map.changed_blocks());
     }
     map_ms.push_back(cpu_ms() - start_ms);
   }

@@ -30,7 +30,8 @@ std::vector<voxel_block_t> to_messages(const VoxelMap& map) {
   std::vector<voxel_block_t> messages;
   messages.reserve(map.block_count());
   for (std::size_t i = 0; i < map.block_count(); ++i)
-    messages.push_back(to_message(map.block_position(i), map.block(i)));
+    if (map.block(i) != VoxelBlock{})
+      messages.push_back(to_message(map.block_position(i), map.block(i)));
   return messages;
 }
 
@@ -44,24 +45,13 @@ std::vector<voxel_block_t> to_messages(const VoxelMap& map, const std::vector<Vo
   return messages;
 }
 
-// Whether all of one block's voxels are another's as well.
-bool holds(const VoxelBlock& block, const VoxelBlock* other) {
-  for (std::size_t i = 0; other && i < block.size(); ++i)
-    if ((*other)[i] & ~block[i]) return false;
-  return true;
-}
-
-// Whether nothing went. Appends what changed.
-bool set_blocks(const std::vector<voxel_block_t>& blocks, VoxelMap& map,
+// Appends what changed.
+void set_blocks(const std::vector<voxel_block_t>& blocks, VoxelMap& map,
                 std::vector<Voxel>& changed) {
-  bool grew = true;
   for (const voxel_block_t& message : blocks) {
     const Voxel position{message.x, message.y, message.z};
-    const VoxelBlock bits = bits_of(message);
-    grew = grew && holds(bits, map.find_block(position));
-    if (map.set_block(position, bits)) changed.push_back(position);
+    if (map.set_block(position, bits_of(message))) changed.push_back(position);
   }
-  return grew;
 }
 
 }  // namespace
@@ -79,16 +69,14 @@ MapBlocks to_messages(const OccupancyMap& map, const ChangedBlocks& positions) {
 }
 
 AppliedChange apply(const MapChange& change, OccupancyMap& map) {
-  AppliedChange applied{.replaced = change.is_whole(), .grown = {}};
-  applied.grown.from = map.revision();
+  AppliedChange applied{.replaced = change.is_whole(), .changed = {}};
+  applied.changed.from = map.revision();
   if (applied.replaced)
     map = {VoxelMap(change.resolution.occupied_m), VoxelMap(change.resolution.passed_m)};
   VOXLIST_CHECK(resolution_of(map) == change.resolution, "the change is of another map");
-  const bool occupied_grew =
-                 set_blocks(change.blocks.occupied, map.occupied, applied.grown.occupied),
-             passed_grew = set_blocks(change.blocks.passed, map.passed, applied.grown.passed);
-  applied.replaced |= !occupied_grew || !passed_grew;
-  applied.grown.to = map.revision();
+  set_blocks(change.blocks.occupied, map.occupied, applied.changed.occupied);
+  set_blocks(change.blocks.passed, map.passed, applied.changed.passed);
+  applied.changed.to = map.revision();
   return applied;
 }
 

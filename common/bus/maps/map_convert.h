@@ -16,10 +16,10 @@ MapBlocks to_messages(const OccupancyMap& map, const ChangedBlocks& positions);
 
 /// What a change did to a map.
 struct AppliedChange {
-  /// The map is another one now, or has lost something.
+  /// The map is another one now.
   bool replaced = false;
-  /// Else the blocks that have gained something; none: nothing changed.
-  ChangedBlocks grown;
+  /// Else the blocks that have gained or lost something; none: nothing changed.
+  ChangedBlocks changed;
 };
 
 /// Brings a map to the change's version: a whole change replaces it, others set their blocks.

@@ -55,7 +55,8 @@ std::uint32_t occupied_cells(const VoxelBlock& bits) {
 }  // namespace
 
 void WindowMap::hold(const CellRectangle& needed) {
-  VOXLIST_CHECK(map_.revision() == revision_, "the map has changed and map_grew() was not called");
+  VOXLIST_CHECK(map_.revision() == revision_,
+                "the map has changed and map_changed() was not called");
   list_new_blocks();
   // Blocks near by mark cells of a patch too.
   const CellRectangle around = whole_patches(widened(needed, kPatch));
@@ -70,15 +71,12 @@ void WindowMap::hold(const CellRectangle& needed) {
   }
 }
 
-void WindowMap::map_grew(const std::vector<Voxel>& blocks) {
+void WindowMap::map_changed(const std::vector<Voxel>& blocks) {
   revision_ = map_.revision();
   list_new_blocks();
   if (!columns_) return;
-  for (const Voxel& position : blocks) {
-    const Patch* patch = find_patch(2 * position.x, 2 * position.y);
-    if (!patch || !patch->ready) continue;
-    if (const VoxelBlock* block = map_.find_block(position)) mark(position, *block);
-  }
+  for (const Voxel& position : blocks)
+    if (is_ready(position)) mark_again(position);
 }
 
 WindowMap::Count WindowMap::count(const CellRectangle& rectangle) const {
@@ -172,6 +170,41 @@ void WindowMap::mark(const Voxel& block, const VoxelBlock& bits) {
     held |= (cells & (0xffU >> d) * kColumns) << d;
     std::memcpy(row, &held, sizeof held);
   }
+}
+
+bool WindowMap::is_ready(const Voxel& block) {
+  const Patch* patch = find_patch(2 * block.x, 2 * block.y);
+  return patch && patch->ready;
+}
+
+// What the blocks of a neighbouring column mark of a block's cells, in its layer.
+std::uint32_t WindowMap::cells_at(const Voxel& block, std::int32_t dx, std::int32_t dy) {
+  Voxel at{block.x + dx, block.y + dy, layer_of(block) << doublings_};
+  if (!is_ready(at)) return 0;
+  std::uint32_t cells = 0;
+  for (const std::int32_t end = at.z + (1 << doublings_); at.z < end; ++at.z)
+    if (const VoxelBlock* bits = map_.find_block(at)) cells |= occupied_cells(*bits);
+  if (dx != 0) cells = dx > 0 ? cells << 16 : cells >> 16;
+  if (dy != 0) cells = dy > 0 ? cells << 2 & 0x0c0c0c0c : cells >> 2 & 0x03030303;
+  return cells;
+}
+
+// A block that has lost voxels may leave cells that its neighbours mark as well.
+void WindowMap::mark_again(const Voxel& block) {
+  std::uint32_t cells = 0;
+  for (std::int32_t dy = -1; dy <= 1; ++dy)
+    for (std::int32_t dx = -1; dx <= 1; ++dx) cells |= cells_at(block, dx, dy);
+  const std::int32_t x = 2 * block.x - 1, y = 2 * block.y - 1, z = layer_of(block);
+  for (std::int32_t i = 0; i < 4; ++i)
+    for (std::int32_t d = 0; d < 4; ++d) set_cell(x + i, y + d, z, (cells >> (8 * i + d) & 1) != 0);
+}
+
+void WindowMap::set_cell(std::int32_t x, std::int32_t y, std::int32_t z, bool is_occupied) {
+  std::uint8_t* row = columns_.get() + place(x, y, z);
+  if (((*row & 1) != 0) == is_occupied) return;
+  if (x >= ground_.low_x && x < ground_.end_x && y >= ground_.low_y && y < ground_.end_y)
+    occupied_[counter_of(x, y, z)] += is_occupied ? 1 : -1;
+  for (int k = 0; k < kTile; ++k, row -= size_x_) *row = static_cast<std::uint8_t>(*row ^ 1U << k);
 }
 
 std::size_t WindowMap::counter_of(std::int32_t x, std::int32_t y, std::int32_t z) const {

@@ -42,8 +42,8 @@ class WindowMap {
   /// far. Places from before must not be used any more.
   void hold(const CellRectangle& needed);
 
-  /// Tells that these blocks of the map have gained voxels, and none have lost any.
-  void map_grew(const std::vector<Voxel>& blocks);
+  /// Tells that these blocks of the map have gained or lost voxels.
+  void map_changed(const std::vector<Voxel>& blocks);
 
   /// Whether a rectangle lies on ground that was held, so that tiles of it can be read.
   bool holds(const CellRectangle& rectangle) const { return columns_ && ground_.holds(rectangle); }
@@ -96,6 +96,10 @@ class WindowMap {
   void make_room(const CellRectangle& ground);
   std::int32_t layer_of(const Voxel& block) const { return block.z >> doublings_; }
   void mark(const Voxel& block, const VoxelBlock& bits);
+  bool is_ready(const Voxel& block);
+  std::uint32_t cells_at(const Voxel& block, std::int32_t dx, std::int32_t dy);
+  void mark_again(const Voxel& block);
+  void set_cell(std::int32_t x, std::int32_t y, std::int32_t z, bool is_occupied);
   std::size_t counter_of(std::int32_t x, std::int32_t y, std::int32_t z) const;
 
   const VoxelMap& map_;

@@ -84,7 +84,7 @@ class ParticleFilterMatcher : public Matcher {
 
   const EvidenceMap& evidence() override { return ready().evidence; }
 
-  void map_grew(const ChangedBlocks&) override { ready_.reset(); }
+  void map_changed(const ChangedBlocks&) override { ready_.reset(); }
 
  private:
   // What is made of the map.

@@ -43,11 +43,11 @@ class SearchMatcher : public Matcher {
     return *evidence_;
   }
 
-  void map_grew(const ChangedBlocks& grown) override {
+  void map_changed(const ChangedBlocks& changed) override {
     surfels_.map_changed();
     global_.map_changed();
-    window_.map_grew(grown);
-    if (evidence_) evidence_->map_grew(grown);
+    window_.map_changed(changed);
+    if (evidence_) evidence_->map_changed(changed);
   }
 
  private:

@@ -114,13 +114,13 @@ class Matcher {
   /// The map, made ready for weighing poses.
   virtual const EvidenceMap& evidence() = 0;
 
-  /// These blocks of the map have gained voxels or passed cells, and none have lost any. Matches
-  /// are the same as with a new matcher.
-  virtual void map_grew(const ChangedBlocks& grown) = 0;
+  /// These blocks of the map have gained or lost voxels or passed cells. Matches are the same as
+  /// with a new matcher.
+  virtual void map_changed(const ChangedBlocks& changed) = 0;
 };
 
 /// Makes the map ready for matching, each part when it is first needed. The map must outlive the
-/// matcher; after a change that map_grew() was not told of, make another one (debug builds abort
+/// matcher; after a change that map_changed() was not told of, make another one (debug builds abort
 /// where one is missed; Localiser does it by itself). Use the matcher from one thread.
 std::unique_ptr<Matcher> make_matcher(const OccupancyMap& map, const MatcherConfig& config);
 

@@ -47,9 +47,9 @@ void refine_contenders(const SurfelMap& surfels, const MatchPoints& points,
 WindowMatcher::WindowMatcher(const OccupancyMap& map, const SurfelMap& surfels)
     : map_(map.occupied), surfels_(surfels), cell_m_(WindowMap::cell_m(map.occupied)) {}
 
-void WindowMatcher::map_grew(const ChangedBlocks& grown) {
+void WindowMatcher::map_changed(const ChangedBlocks& changed) {
   for (const auto& map : maps_)
-    if (map) map->map_grew(grown.occupied);
+    if (map) map->map_changed(changed.occupied);
 }
 
 Match WindowMatcher::match(const PreparedScan& scan, const PoseWindow& window) {

@@ -22,8 +22,8 @@ class WindowMatcher {
   /// The modes are not weighed yet.
   Match track(const PreparedScan& scan, const PoseWindow& window, const UncertainPose& prior);
 
-  /// These blocks of the map have gained voxels.
-  void map_grew(const ChangedBlocks& grown);
+  /// These blocks of the map have gained or lost voxels.
+  void map_changed(const ChangedBlocks& changed);
 
  private:
   WindowMap& map_for(const PreparedScan& scan);

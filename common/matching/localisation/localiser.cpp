@@ -89,10 +89,10 @@ Localiser::Localiser(const OccupancyMap& map, const LocaliserConfig& config)
 
 Localiser::~Localiser() = default;
 
-void Localiser::map_grew(const ChangedBlocks& grown) {
-  if (grown.from != revision_) return;  // follow_map() will see to all changes
-  revision_ = grown.to;
-  if (matcher_) matcher_->map_grew(grown);
+void Localiser::map_changed(const ChangedBlocks& changed) {
+  if (changed.from != revision_) return;  // follow_map() will see to all changes
+  revision_ = changed.to;
+  if (matcher_) matcher_->map_changed(changed);
 }
 
 void Localiser::follow_map() {

@@ -57,9 +57,9 @@ class Localiser {
   Localiser(const OccupancyMap& map, const LocaliserConfig& config = {});
   ~Localiser();
 
-  /// These blocks of the map have gained something, and none have lost any. Without this call the
-  /// next cloud's result is the same, but comes later.
-  void map_grew(const ChangedBlocks& grown);
+  /// These blocks of the map have gained or lost something. Without this call the next cloud's
+  /// result is the same, but comes later.
+  void map_changed(const ChangedBlocks& changed);
 
   /// Locates a cloud (in base). `T_odom_base`: odometry's pose at the cloud's time, if there is
   /// odometry. In an empty map the cloud defines the map frame: TRACKING at the identity.

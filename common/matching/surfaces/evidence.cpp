@@ -107,10 +107,12 @@ double support_of(const Evidence& evidence) {
 EvidenceMap::EvidenceMap(const OccupancyMap& map)
     : map_(map), revision_(map.revision()), filled_(filled_cells(map.occupied, shift_)) {}
 
-void EvidenceMap::map_grew(const ChangedBlocks& grown) {
-  VOXLIST_CHECK(grown.from == revision_, "map_grew() was not called for an earlier change");
-  revision_ = grown.to;
-  for (const Voxel& block : grown.occupied) {
+void EvidenceMap::map_changed(const ChangedBlocks& changed) {
+  VOXLIST_CHECK(changed.from == revision_, "map_changed() was not called for an earlier change");
+  revision_ = changed.to;
+  for (const Voxel& block : changed.occupied) {
+    if (const VoxelBlock* bits = map_.occupied.find_block(block); !bits || *bits == VoxelBlock{})
+      continue;
     const Voxel cell = cell_of(block);
     filled_.set(cell);
     if (filled_.test(cell)) continue;
@@ -126,7 +128,8 @@ Voxel EvidenceMap::cell_of(const Voxel& block) const {
 
 Evidence EvidenceMap::at(const Pose2& pose, std::span<const ScanRay> rays, double reach_m,
                          const SurfelMap* surfels) const {
-  VOXLIST_CHECK(map_.revision() == revision_, "the map has changed and map_grew() was not called");
+  VOXLIST_CHECK(map_.revision() == revision_,
+                "the map has changed and map_changed() was not called");
   Evidence sum;
   const auto reach = static_cast<std::int32_t>(std::lround(reach_m / map_.occupied.resolution_m()));
   const auto [s, c] = elementary::sine_cosine(pose.yaw_rad);

@@ -37,14 +37,14 @@ double support_of(const Evidence& evidence);
 /// are sparse. The coefficients of confidence.cpp were fitted with it.
 inline constexpr double kReach_m = 0.08;
 
-/// A map made ready for weighing poses. The map must outlive it; when it changes but by growing,
-/// make another one. Reading from several threads is safe.
+/// A map made ready for weighing poses. The map must outlive it. Reading from several threads is
+/// safe.
 class EvidenceMap {
  public:
   explicit EvidenceMap(const OccupancyMap& map);
 
-  /// To be called when the map has gained these blocks' voxels and passed cells, and lost none.
-  void map_grew(const ChangedBlocks& grown);
+  /// To be called when the map has gained or lost voxels or passed cells of these blocks.
+  void map_changed(const ChangedBlocks& changed);
 
   /// What the map says to rays at a pose. A ray's end is on the map when a voxel is within about
   /// `reach_m` on each axis. About 0.2 ms for 600 rays of 4 m.

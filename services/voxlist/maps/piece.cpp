@@ -78,7 +78,7 @@ void Piece::add(mapping::Keyframe keyframe, const std::optional<Pose2>& T_odom_b
 
 mapping::Keyframe Piece::add_to_map(mapping::Keyframe keyframe) {
   keyframe = builder_.add(std::move(keyframe));
-  localiser_.map_grew(builder_.changed_blocks());
+  localiser_.map_changed(builder_.changed_blocks());
   return keyframe;
 }
 

@@ -28,7 +28,7 @@ class Robot {
     const double localised_ms = cpu_ms();
     if (first && result.tracking()) T_map_world_ = step.truth.inverse();
     if (!finished_ && result.tracking())
-      localiser_.map_grew(
+      localiser_.map_changed(
           add_scan(step.scan, to_pose3(result.modes.front().T_map_base), kReach_m, own_));
     if (first) return result;
     claims.localise_ms.push_back(localised_ms - start_ms);

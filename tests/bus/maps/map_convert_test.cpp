@@ -61,16 +61,16 @@ TEST(MapConvert, AnIncrementCarriesTheBlocksThatChanged) {
   const MapChange increment = change_to(sent, 0, blocks);
   const AppliedChange applied = apply(increment, received);
   EXPECT_FALSE(applied.replaced);
-  EXPECT_EQ(applied.grown.occupied, std::vector{a});
-  EXPECT_EQ(applied.grown.passed, std::vector{b});
+  EXPECT_EQ(applied.changed.occupied, std::vector{a});
+  EXPECT_EQ(applied.changed.passed, std::vector{b});
   expect_equal(received, sent);
   const AppliedChange again = apply(increment, received);
   EXPECT_FALSE(again.replaced);
-  EXPECT_TRUE(again.grown.occupied.empty());
-  EXPECT_TRUE(again.grown.passed.empty());
+  EXPECT_TRUE(again.changed.occupied.empty());
+  EXPECT_TRUE(again.changed.passed.empty());
 }
 
-TEST(MapConvert, TellsWhenSomethingWent) {
+TEST(MapConvert, TellsTheBlocksThatSomethingWentFrom) {
   const OccupancyMap full = random_map();
   for (const bool passed : {false, true}) {
     OccupancyMap sent = full, received = full;
@@ -81,7 +81,9 @@ TEST(MapConvert, TellsWhenSomethingWent) {
     word &= word - 1;
     map.set_block(block, less);
     const MapBlocks blocks = to_messages(sent, {{block}, {block}});
-    EXPECT_TRUE(apply(change_to(sent, 0, blocks), received).replaced);
+    const AppliedChange applied = apply(change_to(sent, 0, blocks), received);
+    EXPECT_FALSE(applied.replaced);
+    EXPECT_EQ(passed ? applied.changed.passed : applied.changed.occupied, std::vector{block});
     expect_equal(received, sent);
   }
 }
@@ -91,7 +93,7 @@ TEST(MapConvert, TellsThatPassedCellsAloneChanged) {
   sent.passed.insert({1, 2, 3});
   const AppliedChange applied = apply(change_to(sent, 0, to_messages(sent)), received);
   EXPECT_FALSE(applied.replaced);
-  EXPECT_EQ(applied.grown.passed, std::vector{block_of({1, 2, 3})});
+  EXPECT_EQ(applied.changed.passed, std::vector{block_of({1, 2, 3})});
   EXPECT_TRUE(received.passed.contains({1, 2, 3}));
   EXPECT_TRUE(apply(whole_change({}), received).replaced) << "they are gone now";
   EXPECT_TRUE(received.passed.empty());

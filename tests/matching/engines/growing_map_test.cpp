@@ -1,6 +1,8 @@
-// What was made of a map that has grown since gives the same as what is made anew.
+// What was made of a map that has grown since, or lost something, gives the same as what is made
+// anew.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 #include "tests/matching/synthetic_room.h"
@@ -54,9 +56,39 @@ TEST(WindowMap, GrowsToWhatItWouldBeAnew) {
   WindowMap window = holding(map, kGround);
   // The last ones are higher than there was room for.
   for (const std::int32_t height : {56, 56, 40, 56, 40, 200}) {
-    window.map_grew(grow(100, height));
+    window.map_changed(grow(100, height));
     window.hold(kGround);
     expect_equal(window, holding(map, kGround));
+  }
+}
+
+TEST(WindowMap, LosesToWhatItWouldBeAnew) {
+  std::mt19937 random(3);
+  const auto between = [&](int low, int high) {
+    return low + static_cast<std::int32_t>(random() % static_cast<unsigned>(high - low));
+  };
+  for (const int doublings : {0, 2}) {
+    VoxelMap map;
+    for (int i = 0; i < 4000; ++i)
+      map.insert({between(-300, 400), between(-250, 350), between(0, 60)});
+    WindowMap window(map, doublings);
+    window.hold(kGround);
+    for (int round = 0; round < 5; ++round) {
+      std::vector<Voxel> changed;
+      for (int i = 0; i < 200; ++i) {
+        const Voxel at = map.block_position(random() % map.block_count());
+        VoxelBlock bits = *map.find_block(at);
+        if (i % 4 == 0) bits = {};
+        for (std::uint64_t& word : bits) word &= random();
+        if (map.set_block(at, bits)) changed.push_back(at);
+      }
+      ASSERT_FALSE(changed.empty());
+      window.map_changed(changed);
+      window.hold(kGround);
+      WindowMap fresh(map, doublings);
+      fresh.hold(kGround);
+      expect_equal(window, fresh);
+    }
   }
 }
 
@@ -128,7 +160,40 @@ TEST(Matcher, MatchesInAGrownMapAsInANewOne) {
     const PoseWindow window{pose * Pose2{0.1, -0.1, 0.05}, 0.4, 0.4, 0.3};
     expect_equal(grown->match(scan, window), fresh->match(scan, window));
     expect_equal(grown->match(scan, std::nullopt), fresh->match(scan, std::nullopt));
-    grown->map_grew(add_scan(cloud, to_pose3(pose), i % 2 == 0 ? 100.0 : 2.0, map));
+    grown->map_changed(add_scan(cloud, to_pose3(pose), i % 2 == 0 ? 100.0 : 2.0, map));
+  }
+}
+
+// Takes every third block's voxels that a plane cuts off.
+ChangedBlocks carve(OccupancyMap& map, int from) {
+  ChangedBlocks changed;
+  changed.from = map.revision();
+  for (std::size_t i = static_cast<std::size_t>(from); i < map.occupied.block_count(); i += 3) {
+    const Voxel at = map.occupied.block_position(i);
+    VoxelBlock bits = map.occupied.block(i);
+    for (std::uint64_t& word : bits) word &= 0x0f0f0f0f0f0f0f0f;
+    if (map.occupied.set_block(at, bits)) changed.occupied.push_back(at);
+  }
+  std::sort(changed.occupied.begin(), changed.occupied.end());
+  changed.to = map.revision();
+  return changed;
+}
+
+TEST(Matcher, MatchesInAMapThatLostSomethingAsInANewOne) {
+  OccupancyMap map;
+  for (int i = 0; i < 6; ++i) add_scan(seen_from(on_the_way(i)), to_pose3(on_the_way(i)), 9.0, map);
+  const auto carved = make_matcher(map, {});
+  const Pose2 pose = on_the_way(2);
+  const PreparedScan scan(seen_from(pose));
+  const PoseWindow window{pose * Pose2{0.1, -0.1, 0.05}, 0.4, 0.4, 0.3};
+  for (int i = 0; i < 3; ++i) {
+    carved->match(scan, window);
+    const ChangedBlocks changed = carve(map, i);
+    ASSERT_FALSE(changed.occupied.empty());
+    carved->map_changed(changed);
+    const auto fresh = make_matcher(map, {});
+    expect_equal(carved->match(scan, window), fresh->match(scan, window));
+    expect_equal(carved->match(scan, std::nullopt), fresh->match(scan, std::nullopt));
   }
 }
 
@@ -143,7 +208,7 @@ TEST(Matcher, TheFilterToo) {
     const PreparedScan scan(cloud);
     const PoseWindow window{on_the_way(i), 0.2, 0.2, 0.1};
     expect_equal(grown->match(scan, window), make_matcher(map, config)->match(scan, window));
-    grown->map_grew(add_scan(cloud, to_pose3(on_the_way(i)), 100.0, map));
+    grown->map_changed(add_scan(cloud, to_pose3(on_the_way(i)), 100.0, map));
   }
 }
 
@@ -152,7 +217,7 @@ TEST(EvidenceMap, WeighsInAGrownMapAsInANewOne) {
   EvidenceMap grown(map);
   for (int i = 0; i < 5; ++i) {
     const Cloud scan = seen_from(on_the_way(i));
-    grown.map_grew(add_scan(scan, to_pose3(on_the_way(i)), 1.0 + i, map));
+    grown.map_changed(add_scan(scan, to_pose3(on_the_way(i)), 1.0 + i, map));
     const PreparedScan prepared(scan);
     const auto& rays = prepared.few_rays();
     for (const Pose2& off : {Pose2{}, Pose2{0.5, 0.3, 1.0}}) {
@@ -183,8 +248,8 @@ TEST(Localiser, TracksInAGrownMapAsInANewOneWhetherItIsToldOrNot) {
     expect_same_track(a, told_of_some.localise(scan));
     const Pose3 T_map_base = to_pose3(a.modes.front().T_map_base);
     const ChangedBlocks changed = add_scan(scan, T_map_base, 2.5, map);
-    grown.map_grew(changed);
-    if (i % 2 == 1) told_of_some.map_grew(changed);
+    grown.map_changed(changed);
+    if (i % 2 == 1) told_of_some.map_changed(changed);
   }
 }
 

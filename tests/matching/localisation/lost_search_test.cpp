@@ -38,7 +38,7 @@ class OnePose : public Matcher {
   }
 
   const EvidenceMap& evidence() override { return evidence_; }
-  void map_grew(const ChangedBlocks&) override {}
+  void map_changed(const ChangedBlocks&) override {}
 
   int asked = 0;
   // What a refinement that knows nothing beforehand has of the pose.

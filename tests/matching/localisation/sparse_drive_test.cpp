@@ -51,7 +51,7 @@ struct Mapping {
     cloud.utime_us = utime_us += 1'000'000;
     const Localisation result = localiser.localise(cloud, T_odom_base);
     if (result.tracking())
-      localiser.map_grew(add_scan(cloud, to_pose3(result.modes.front().T_map_base), 100.0, map));
+      localiser.map_changed(add_scan(cloud, to_pose3(result.modes.front().T_map_base), 100.0, map));
     return result;
   }
 };
