@@ -1,5 +1,6 @@
 #include "voxlist/mapping/map_builder.h"
 
+#include <algorithm>
 #include <limits>
 #include <numbers>
 
@@ -24,6 +25,9 @@ void remove_near(Cloud& cloud, double min_range_m) {
 
 }  // namespace
 
+MapBuilder::MapBuilder(const MapBuilderConfig& config)
+    : config_(config), map_({config.carve, config.min_range_m, config.max_range_m}) {}
+
 bool MapBuilder::has_moved(const Pose2& pose) const {
   return distance_m(pose, looked_at_) >= config_.min_distance_m ||
          turn_rad(pose, looked_at_) >= config_.min_turn_deg * std::numbers::pi / 180.0;
@@ -33,12 +37,19 @@ bool MapBuilder::wants(const Cloud& cloud, const Pose2& pose, const Tilt& tilt) 
   if (poses_.empty()) return true;
   if (!has_moved(pose)) return false;
   looked_at_ = pose;
-  return scan_news(cloud, to_pose3(pose, tilt), config_.max_range_m, map_).share() >=
-         config_.min_news;
+  return news_of({to_pose3(pose, tilt), cloud}) >= config_.min_news;
+}
+
+// Of the cells that a scan hits or passes, the share that is news; what it sees to be gone counts
+// against what it hits.
+double MapBuilder::news_of(const CarvedMap::Scan& scan) {
+  const ScanNews news = scan_news(scan.cloud, scan.T_map_base, config_.max_range_m, map());
+  const double doubted = static_cast<double>(map_.count_doubted(scan));
+  return std::max(news.share(), doubted / static_cast<double>(std::max<std::size_t>(news.hit, 1)));
 }
 
 void MapBuilder::clear() {
-  map_ = {};
+  map_.clear();
   poses_.clear();
   changed_blocks_ = {};
   looked_at_ = {};
@@ -46,7 +57,7 @@ void MapBuilder::clear() {
 
 Keyframe MapBuilder::add(Keyframe keyframe) {
   remove_near(keyframe.cloud, config_.min_range_m);
-  changed_blocks_ = add_scan(keyframe.cloud, keyframe.T_map_base, config_.max_range_m, map_);
+  changed_blocks_ = map_.add({keyframe.T_map_base, keyframe.cloud});
   looked_at_ = to_pose2(keyframe.T_map_base);
   poses_.push_back({keyframe.cloud.utime_us, keyframe.T_map_base});
   return keyframe;

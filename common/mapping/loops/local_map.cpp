@@ -7,7 +7,17 @@ namespace {
 // it saw the same ground, or just not.
 constexpr double kInReach = 0.5;
 
+// Few keyframes, most of one time: what one of them sees to be gone may be hidden from the others.
+MapBuilderConfig without_carving() {
+  MapBuilderConfig config;
+  config.carve = false;
+  return config;
+}
+
 }  // namespace
+
+LocalMap::LocalMap(const matching::MatcherConfig& config)
+    : config_(config), builder_(without_carving()) {}
 
 void LocalMap::add(const Cloud& cloud, const Pose2& T_local_base) {
   builder_.add({to_pose3(T_local_base), cloud});

@@ -16,7 +16,7 @@ using ReadCloud = std::function<Cloud(std::size_t)>;
 /// A map of few keyframes, in the frame of one of them, that scans are matched with.
 class LocalMap {
  public:
-  explicit LocalMap(const matching::MatcherConfig& config) : config_(config) {}
+  explicit LocalMap(const matching::MatcherConfig& config);
 
   void add(const Cloud& cloud, const Pose2& T_local_base);
 

@@ -26,6 +26,11 @@ class CounterMap {
   /// Counts a scan; where blocks are given, only in those. Precondition: the same resolution.
   void add(const RayScratch& scan, const Numbering<Voxel>* only = nullptr);
 
+  /// Counts one pass or one hit for cells of one block.
+  void add(const Voxel& position, CellStore::Block passed, CellStore::Block hit) {
+    update_.count(passed, hit, counters_at(position));
+  }
+
   /// The counters of a block, to be changed.
   CounterBlock& counters_at(const Voxel& position);
 

@@ -144,13 +144,16 @@ bool RayScratch::follow_as_far_as_fits(double longest, const Stopped& stopped) {
 bool RayScratch::follow_to(double length, const Stopped& stopped) {
   passed_.begin(box_.block_bits(), rules_.most_blocks);
   std::array<FixedRay, kRaysAtOnce> rays;
+  const double end_gap = std::ldexp(rules_.end_gap_m / rules_.resolution_m, kFractionBits);
   for (std::size_t first = 0; first < rays_.size() && !passed_.bits().is_full;) {
     if (stopped && stopped()) return false;
     const std::size_t size = std::min(kRaysAtOnce, rays_.size() - first);
     const FixedRay* from = &rays_[first];
-    if (!std::isinf(length)) {
-      for (std::size_t i = 0; i < size; ++i)
-        rays[i] = part_of(from[i], std::min(1.0, length / length_of(from[i])));
+    if (!std::isinf(length) || end_gap > 0.0) {
+      for (std::size_t i = 0; i < size; ++i) {
+        const double whole = length_of(from[i]), wanted = std::min(length, whole - end_gap);
+        rays[i] = part_of(from[i], whole > 0.0 ? std::clamp(wanted / whole, 0.0, 1.0) : 0.0);
+      }
       from = rays.data();
     }
     const int* shift = box_.block_shift();

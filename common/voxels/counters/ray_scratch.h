@@ -27,6 +27,8 @@ struct RayRules {
   /// False: of rays that start in one cell and end in one cell the first one stands for all, where
   /// all rays of the scan start in one cell.
   bool every_ray = true;
+  /// So much of each ray before its end (m) is not followed.
+  double end_gap_m = 0.0;
 };
 
 /// The cells that one scan's rays pass and hit, each once: exactly those of Amanatides and Woo
