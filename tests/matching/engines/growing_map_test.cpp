@@ -184,7 +184,8 @@ TEST(Matcher, MatchesInAMapThatLostSomethingAsInANewOne) {
   for (int i = 0; i < 6; ++i) add_scan(seen_from(on_the_way(i)), to_pose3(on_the_way(i)), 9.0, map);
   const auto carved = make_matcher(map, {});
   const Pose2 pose = on_the_way(2);
-  const PreparedScan scan(seen_from(pose));
+  const Cloud cloud = seen_from(pose);
+  const PreparedScan scan(cloud);
   const PoseWindow window{pose * Pose2{0.1, -0.1, 0.05}, 0.4, 0.4, 0.3};
   for (int i = 0; i < 3; ++i) {
     carved->match(scan, window);
