@@ -81,9 +81,9 @@ void MakingOptions::add_to(CLI::App& command) {
                   "edge of map.bt's voxels in metres; default 0.1")
       ->check(CLI::Range(0.01, 10.0));
   command.add_flag("--no-octomap", no_octomap, "make no map.bt");
-  command.add_flag("--keep-all", keep_all,
-                   "people who walked by and furniture that was moved stay in the map (carve = "
-                   "false in [mapper])");
+  command.add_flag("--carve", carve,
+                   "people who walked by and furniture that was moved leave the map (carve = true "
+                   "in [mapper])");
   command.add_option("--threads", threads, "most threads; the map does not depend on it")
       ->check(CLI::Range(1, 1024));
   add_tilt(command, tilt);
@@ -92,7 +92,7 @@ void MakingOptions::add_to(CLI::App& command) {
 DeskSettings MakingOptions::settings() const {
   DeskSettings settings = read_settings(config);
   if (octomap_resolution_m > 0.0) settings.octomap.resolution_m = octomap_resolution_m;
-  if (keep_all) settings.mapper.carve = false;
+  if (carve) settings.mapper.carve = true;
   if (threads > 0) settings.localiser.threads = threads;
   if (tilt) settings.localiser.tilt = *tilt;
   return settings;

@@ -59,7 +59,7 @@ struct MakingOptions {
   PrefixOption prefix;
   double octomap_resolution_m = 0.0;
   bool no_octomap = false;
-  bool keep_all = false;
+  bool carve = false;
   int threads = 0;
   std::optional<TiltUse> tilt;
 

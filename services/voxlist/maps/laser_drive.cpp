@@ -71,7 +71,7 @@ class Mapper : public Watcher {
     seen_.drive.scans.push_back({cloud.utime_us, pose});
     if (!builder_.wants(cloud, pose)) return;
     builder_.add({to_pose3(pose), cloud});
-    localiser_.map_grew(builder_.changed_blocks());
+    localiser_.map_changed(builder_.changed_blocks());
   }
 
   mapping::MapBuilder builder_;
