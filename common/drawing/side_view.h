@@ -15,7 +15,7 @@ class SideView {
   /// `points`: how far across each voxel lies (pixels), and its height (m).
   SideView(const std::vector<Eigen::Vector2d>& points, double pixels_per_m);
 
-  /// In pixels.
+  /// The picture's height in pixels.
   int height() const { return height_; }
 
   /// The row of a height, from the top.

@@ -40,8 +40,8 @@ bool MapBuilder::wants(const Cloud& cloud, const Pose2& pose, const Tilt& tilt) 
   return news_of({to_pose3(pose, tilt), cloud}) >= config_.min_news;
 }
 
-// Of the cells that a scan hits or passes, the share that is news; what it sees to be gone counts
-// against what it hits.
+// How much of a scan is news: the share of cells that it hits or passes and the map does not
+// know, or that of what it sees to be gone in what it hits, whichever is larger.
 double MapBuilder::news_of(const CarvedMap::Scan& scan) {
   const ScanNews news = scan_news(scan.cloud, scan.T_map_base, config_.max_range_m, map());
   const double doubted = static_cast<double>(map_.count_doubted(scan));

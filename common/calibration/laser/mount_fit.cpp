@@ -184,7 +184,7 @@ class Problem {
         nullptr, parameters_.data());
   }
 
-  // From this yaw on; the cost at the end.
+  // Fits all parameters, beginning at this yaw, and returns what cost is left.
   double solve(double yaw_rad) {
     parameters_ = {};
     parameters_[kMountYaw] = yaw_rad;
@@ -201,7 +201,7 @@ class Problem {
 
   struct Quality {
     double rms = 0.0;  // of what motions disagree by
-    // Of the parameters, if that were 1.
+    // The parameters' standard deviations, if rms were 1.
     Eigen::Matrix<double, kAllParameters, 1> sd;
   };
   Quality quality() {
@@ -242,7 +242,7 @@ std::optional<MountFit> fit_mount(const LaserDrive& drive) {
                             turns = motions_of(drive.scans, odometry, kTurn_s);
   if (ways.size() < kFewestMotions) return std::nullopt;
   Problem problem(ways, turns, odometry);
-  // From all round: a laser may look backwards.
+  // The fit begins at eight yaws all round, since a laser may look backwards.
   double best_yaw_rad = 0.0, least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 8; ++i) {
     const double cost = problem.solve(i * std::numbers::pi / 4.0);

@@ -20,8 +20,8 @@ constexpr std::size_t kFewestOthers = 3;
 constexpr double kLeastShare = 0.6;
 // So many of those that agree must be right by what their scans show alone, in the mean. Of 142
 // pairs of places on real streets that have nothing in common, one had four looks that agreed; and
-// of their 49 groups of two and more, one came to more than this. Together that is 1 of 7,000, if
-// neither favours the other; 27 of 34 right groups have both.
+// of their 49 groups of two and more, one came to more than this. Together that is some 1 of 7,000,
+// if neither favours the other, and known from one case each; 27 of 34 right groups have both.
 constexpr double kLeastRight = 0.1;
 
 bool is_allowed(const PoseTree& tree, const PoseEdge& edge) {

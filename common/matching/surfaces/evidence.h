@@ -43,7 +43,7 @@ class EvidenceMap {
  public:
   explicit EvidenceMap(const OccupancyMap& map);
 
-  /// To be called when the map has gained or lost voxels or passed cells of these blocks.
+  /// The owner calls this when blocks of the map have gained or lost voxels or passed cells.
   void map_changed(const ChangedBlocks& changed);
 
   /// What the map says to rays at a pose. A ray's end is on the map when a voxel is within about

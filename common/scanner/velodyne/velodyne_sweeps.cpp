@@ -19,7 +19,8 @@ constexpr float kLongest_s = 0.5F;
 
 int from_behind(int azimuth_cdeg) { return (azimuth_cdeg + kHalfTurn_cdeg) % kTurn_cdeg; }
 
-// From one time of the laser's hour to another, the shorter way round.
+// The time that passed between two of the laser's times, which begin anew each hour: the shorter
+// way round, so that it is negative where packets came in the wrong order.
 std::int64_t step_us(std::uint32_t from_us, std::uint32_t to_us) {
   const std::int64_t step = std::int64_t{to_us} - std::int64_t{from_us};
   if (step < -kVelodyneHour_us / 2) return step + kVelodyneHour_us;
