@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
+#include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "voxlist/io/files/atomic_file.h"
 #include "voxlist/planning/bt_encoder.h"
@@ -29,7 +31,26 @@ std::size_t cells_in(const BlockBits& bits) {
   return count;
 }
 
+// The box whose edges lie within its first and its last voxels.
+VoxelBox box_between(const std::vector<double>& m, double resolution_m) {
+  const Voxel a = voxel_at(Eigen::Vector3d(m[0], m[1], m[2]), resolution_m);
+  const Voxel b = voxel_at(Eigen::Vector3d(m[3], m[4], m[5]), resolution_m);
+  return {{std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)},
+          {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}};
+}
+
 }  // namespace
+
+OctomapCut cut_of(const OctomapConfig& config) {
+  if (!config.export_box_m.empty() && config.export_box_m.size() != 6)
+    throw std::invalid_argument("export_box_m has two corners, six numbers, or none");
+  if (config.export_resolution_m != 0.0 && config.export_resolution_m < config.resolution_m)
+    throw std::invalid_argument("export_resolution_m is not below resolution_m, or 0");
+  OctomapCut cut;
+  cut.resolution_m = config.export_resolution_m;
+  if (!config.export_box_m.empty()) cut.box = box_between(config.export_box_m, config.resolution_m);
+  return cut;
+}
 
 struct OctomapBuilder::Tree {
   explicit Tree(const OctomapConfig& config)
@@ -43,25 +64,45 @@ struct OctomapBuilder::Tree {
     reach_m = std::min(reach_m, scan.reach_m());
   }
 
-  // Calls write(counters, tiles) with what of the map is wanted.
-  template <class Write>
-  void write(const OctomapCut& wanted, const Write& write_part) {
+  // Returns what use(counters, tiles) returns, with what of the map is wanted.
+  template <class Use>
+  auto with(const OctomapCut& wanted, const Use& use) {
+    follow();
     const double resolution_m =
         wanted.resolution_m == 0.0 ? rules.resolution_m : wanted.resolution_m;
-    if (resolution_m == rules.resolution_m && !wanted.box) {
-      tiles.update(counters);
-      return write_part(counters, tiles);
+    if (resolution_m == rules.resolution_m && !wanted.box) return use(counters, tiles);
+    if (!part || part->cut != wanted) {
+      part.emplace(wanted, CutMap(counters, resolution_m, wanted.box));
+      part->follow();
     }
-    CounterMap part = cut(counters, resolution_m, wanted.box);
-    OctreeTiles its_tiles;
-    its_tiles.update(part);
-    write_part(part, its_tiles);
+    return use(part->counters.map(), part->tiles);
   }
+
+  // Brings trees up to date with the counters.
+  void follow() {
+    const std::vector<std::uint32_t> changed = counters.take_changed();
+    tiles.update(counters, changed);
+    if (!part) return;
+    part->counters.update(counters, changed);
+    part->follow();
+  }
+
+  // The part of the map that was asked for last.
+  struct Part {
+    Part(const OctomapCut& of, CutMap map) : cut(of), counters(std::move(map)) {}
+
+    void follow() { tiles.update(counters.map(), counters.map().take_changed()); }
+
+    OctomapCut cut;
+    CutMap counters;
+    OctreeTiles tiles;
+  };
 
   const RayRules rules;
   RayScratch scratch;
   CounterMap counters;
   OctreeTiles tiles;
+  std::optional<Part> part;
   double reach_m = std::numeric_limits<double>::infinity();
 };
 
@@ -105,20 +146,21 @@ bool OctomapBuilder::recount(const std::vector<CloudMove>& moves,
 
 double OctomapBuilder::reach_m() const { return tree_->reach_m; }
 
-std::vector<std::uint8_t> OctomapBuilder::binary() const {
-  tree_->tiles.update(tree_->counters);
-  const std::string bytes = BtEncoder(tree_->counters, tree_->tiles).file();
-  return {bytes.begin(), bytes.end()};
+std::vector<std::uint8_t> OctomapBuilder::binary(const OctomapCut& cut) const {
+  return tree_->with(cut, [](const CounterMap& counters, OctreeTiles& tiles) {
+    const std::string bytes = BtEncoder(counters, tiles).file();
+    return std::vector<std::uint8_t>(bytes.begin(), bytes.end());
+  });
 }
 
 void OctomapBuilder::write_bt(const std::filesystem::path& path, const OctomapCut& cut) const {
-  tree_->write(cut, [&](const CounterMap& counters, OctreeTiles& tiles) {
+  tree_->with(cut, [&](const CounterMap& counters, OctreeTiles& tiles) {
     io::write_file_atomically(path, BtEncoder(counters, tiles).file());
   });
 }
 
 void OctomapBuilder::write_ot(const std::filesystem::path& path, const OctomapCut& cut) const {
-  tree_->write(cut, [&](const CounterMap& counters, OctreeTiles& tiles) {
+  tree_->with(cut, [&](const CounterMap& counters, OctreeTiles& tiles) {
     io::write_file_atomically(path, OtEncoder(counters, tiles).file());
   });
 }
@@ -131,8 +173,8 @@ OctomapSize OctomapBuilder::size() const {
     size.occupied += occupied;
     size.free += cells_in(counters.known(i)) - occupied;
   }
-  tree_->tiles.update(tree_->counters);
-  size.nodes = BtEncoder(counters, tree_->tiles).nodes();
+  size.nodes = tree_->with(
+      {}, [](const CounterMap& all, OctreeTiles& tiles) { return BtEncoder(all, tiles).nodes(); });
   return size;
 }
 

@@ -24,6 +24,9 @@ struct OctomapConfig {
   double min_range_m = 0.05;
   double hit_probability = 0.7;
   double miss_probability = 0.4;
+  /// What is handed out: in larger voxels, or of a box alone.
+  double export_resolution_m = 0.0;
+  std::vector<double> export_box_m;
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -33,6 +36,12 @@ struct OctomapConfig {
     v("min_range_m", min_range_m, "points nearer than this are no points, nor is 0,0,0", 0.0, 10.0);
     v("hit_probability", hit_probability, "that a voxel is occupied, after one hit", 0.51, 0.99);
     v("miss_probability", miss_probability, "that a voxel is occupied, after one pass", 0.01, 0.4);
+    v("export_resolution_m", export_resolution_m,
+      "edge of the voxels of OCTOMAP and the files, not below resolution_m; 0: that. One is "
+      "occupied where a voxel in it is, else free where one is",
+      0.0, 10.0);
+    v("export_box_m", export_box_m,
+      "only what lies between two corners, x, y, z, x, y, z in the map; empty: all", -1e5, 1e5);
   }
 };
 
@@ -67,7 +76,12 @@ struct OctomapCut {
   double resolution_m = 0.0;
   /// Only what is in this box of the map's voxels; all where there is none.
   std::optional<VoxelBox> box;
+
+  bool operator==(const OctomapCut&) const = default;
 };
+
+/// The part that the settings say. Throws std::invalid_argument where they make no sense.
+OctomapCut cut_of(const OctomapConfig& config);
 
 /// Builds an OctoMap from clouds with poses, every ray from where it started, cell by cell, without
 /// OctoMap: by counters of hits and passes (voxels/counters), from which the files are written leaf
@@ -111,9 +125,9 @@ class OctomapBuilder {
   double reach_m() const;
 
   /// The bytes of a .bt file, as map_octree_t carries them: every voxel free or occupied, pruned.
-  /// Costs what has changed since the last call, and the copying of the bytes. Not from two threads
-  /// at once.
-  std::vector<std::uint8_t> binary() const;
+  /// Costs what has changed since the last call, and the copying of the bytes; so does a part that
+  /// is asked for again and again. Not from two threads at once.
+  std::vector<std::uint8_t> binary(const OctomapCut& cut = {}) const;
 
   /// Writes a .bt file, never one that is half there. Throws FileError when it cannot.
   void write_bt(const std::filesystem::path& path, const OctomapCut& cut = {}) const;

@@ -19,8 +19,8 @@ std::uint32_t morton(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
 
 }  // namespace
 
-void OctreeTiles::update(CounterMap& map) {
-  for (const std::uint32_t number : map.take_changed()) add(map.block_position(number), number);
+void OctreeTiles::update(const CounterMap& map, std::span<const std::uint32_t> changed) {
+  for (const std::uint32_t number : changed) add(map.block_position(number), number);
 }
 
 void OctreeTiles::add(const Voxel& block, std::uint32_t number) {

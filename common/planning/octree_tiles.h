@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -36,8 +37,9 @@ class OctreeTiles {
   /// By Morton key.
   using Tiles = std::map<std::uint32_t, Tile>;
 
-  /// Takes in the blocks of the map that have changed. Blocks outside of the octree are left out.
-  void update(CounterMap& map);
+  /// Takes in the blocks of the map that have changed, given by their numbers. Blocks outside of
+  /// the octree are left out.
+  void update(const CounterMap& map, std::span<const std::uint32_t> changed);
 
   Tiles& tiles() { return tiles_; }
 

@@ -62,6 +62,7 @@ OctomapExportService::OctomapExportService(bus::Bus& bus, bus::Health& health,
       health_(health),
       config_(config),
       folder_(in_state_folder(config.folder)),
+      cut_(planning::cut_of(config.octomap)),
       builder_(config.octomap),
       word_(health) {
   if (!folder_.empty()) io::remove_stale_temporaries(folder_);
@@ -188,17 +189,25 @@ void OctomapExportService::request(std::int32_t want, std::int32_t first, std::i
   bus_.publish(bus::kMapRequest, message);
 }
 
+// What is known already is not told again: a keyframe that changes nothing, or nothing in the box.
 void OctomapExportService::publish(std::int64_t now_us) {
   const Stopwatch stopwatch;
+  std::vector<std::uint8_t> bytes = builder_.binary(cut_);
+  if (bytes != published_ || map_id_ != published_map_id_) send(bytes);
+  published_ = std::move(bytes);
+  published_map_id_ = map_id_;
+  publishing_ = {false, now_us, stopwatch.elapsed_us()};
+}
+
+void OctomapExportService::send(const std::vector<std::uint8_t>& bytes) {
   map_octree_t message{};
   message.utime = utime_us_;
   message.map_id = map_id_;
   message.view_id = keyframes_;
-  message.data = builder_.binary();
+  message.data = bytes;
   message.num_bytes = static_cast<std::int32_t>(message.data.size());
   for (int i = 0; i < 4; ++i) message.transform[i][i] = 1.0F;
   bus_.publish(bus::kOctomap, message);
-  publishing_ = {false, now_us, stopwatch.elapsed_us()};
 }
 
 void OctomapExportService::save(std::int64_t now_us) {
@@ -216,8 +225,8 @@ void OctomapExportService::save(std::int64_t now_us) {
 
 void OctomapExportService::write_files() const {
   std::filesystem::create_directories(folder_);
-  builder_.write_bt(folder_ / "map.bt");
-  builder_.write_ot(folder_ / "map.ot");
+  builder_.write_bt(folder_ / "map.bt", cut_);
+  builder_.write_ot(folder_ / "map.ot", cut_);
 }
 
 void OctomapExportService::report() {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "services/octomap_export/keyframe_queue.h"
 #include "voxlist/bus/channels.h"
@@ -71,6 +72,7 @@ class OctomapExportService {
   void ask(std::int32_t first, std::int64_t now_us);
   void request(std::int32_t want, std::int32_t first, std::int64_t utime_us);
   void publish(std::int64_t now_us);
+  void send(const std::vector<std::uint8_t>& bytes);
   void save(std::int64_t now_us);
   void write_files() const;
   void report();
@@ -79,12 +81,15 @@ class OctomapExportService {
   bus::Health& health_;
   const OctomapExportConfig config_;
   const std::filesystem::path folder_;
+  const planning::OctomapCut cut_;
   KeyframeQueue queue_;
   planning::OctomapBuilder builder_;
   // Map and time of the newest keyframe inserted.
   std::int64_t map_id_ = 0, utime_us_ = 0;
   std::int64_t keyframes_ = 0;
   Pending publishing_, saving_;
+  std::vector<std::uint8_t> published_;  // the bytes of the last OCTOMAP
+  std::int64_t published_map_id_ = 0;
   std::optional<std::int64_t> quiet_since_us_;  // last keyframe inserted, or asked for
   std::int32_t asked_up_to_ = -1;               // index after the last one that was asked for
   service::MapperWord word_;

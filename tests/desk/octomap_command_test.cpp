@@ -58,6 +58,17 @@ TEST_F(OctomapCommand, WritesABoxAlone) {
                       "whole.bt") == all);
 }
 
+TEST_F(OctomapCommand, WritesLargerVoxelsOfSmallerOnes) {
+  const std::string large = written({"--resolution", "0.3", "--voxels", "0.6"}, "large.bt");
+  EXPECT_THAT(large, HasSubstr("\nres 0.6\n"));
+  EXPECT_FALSE(large == written({"--resolution", "0.6"}, "counted.bt"))
+      << "what a large voxel holds is occupied, however many rays pass beside it";
+  const test::DeskRun small =
+      test::run({"octomap", map_, "-o", work_ / "x.bt", "--resolution", "0.3", "--voxels", "0.1"});
+  EXPECT_EQ(small.exit_code, 1);
+  EXPECT_THAT(small.err, HasSubstr("export_resolution_m"));
+}
+
 TEST_F(OctomapCommand, RefusesWhatItCannotWriteOrRead) {
   const test::DeskRun other = test::run({"octomap", map_, "-o", work_ / "map.txt"});
   EXPECT_EQ(other.exit_code, 1);

@@ -418,6 +418,43 @@ TEST_F(OctomapFiles, MayHoldABoxInLargerVoxels) {
   EXPECT_GT(known, occupied + 100);
 }
 
+// A part that is asked for after each cloud costs what the cloud changed; read by OctoMap itself.
+TEST(Octomap, GivesTheSamePartHoweverOftenItIsAsked) {
+  const std::vector<OctomapCut> cuts{{0.25, std::nullopt},
+                                     {0.0, VoxelBox{{-9, -13, -8}, {70, 12, 11}}},
+                                     {0.2, VoxelBox{{-9, -13, -8}, {70, 12, 11}}}};
+  const std::vector<PosedCloud> clouds = clouds_along_a_way();
+  for (const OctomapCut& cut : cuts) {
+    OctomapBuilder asked(config());
+    for (std::size_t i = 0; i < 9; ++i) {
+      asked.insert(clouds[i].T_map_base, clouds[i].cloud);
+      const std::string bytes = text(asked.binary(cut));
+      OctomapBuilder silent = map_of({clouds.begin(), clouds.begin() + std::ptrdiff_t(i) + 1});
+      ASSERT_TRUE(bytes == text(silent.binary(cut))) << i;
+      std::istringstream in(bytes);
+      octomap::OcTree tree(0.5);
+      ASSERT_TRUE(tree.readBinary(in));
+      std::ostringstream again;
+      tree.writeBinary(again);
+      EXPECT_TRUE(bytes == again.str()) << i;
+      EXPECT_GT(tree.size(), 1000u);
+    }
+    EXPECT_FALSE(asked.binary(cut) == asked.binary());
+  }
+}
+
+TEST(Octomap, FollowsACloudThatIsTakenOutInAPartToo) {
+  const OctomapCut cut{0.25, VoxelBox{{-9, -13, -8}, {200, 12, 11}}};
+  std::vector<PosedCloud> clouds = clouds_along_a_way();
+  OctomapBuilder builder = map_of(clouds);
+  const auto before = builder.binary(cut);
+  const PosedCloud gone = clouds[7];
+  clouds.erase(clouds.begin() + 7);
+  EXPECT_TRUE(builder.recount({{gone, std::nullopt}}, one_by_one(clouds), 1));
+  EXPECT_FALSE(builder.binary(cut) == before);
+  EXPECT_TRUE(builder.binary(cut) == map_of(clouds).binary(cut));
+}
+
 TEST_F(OctomapFiles, AreReadByTheToolsOfOctomap) {
   if (run("command -v convert_octree bt2vrml compare_octrees") != 0)
     GTEST_SKIP() << "the package octomap-tools is not installed";

@@ -182,6 +182,30 @@ TEST_F(OctomapExport, PublishesAtMostOnceASecondAndOnlyChanges) {
   EXPECT_EQ(octomaps_.size(), 2u);
 }
 
+TEST_F(OctomapExport, PublishesABoxInLargerVoxelsAloneAndOnlyItsChanges) {
+  config_.octomap.export_resolution_m = 0.2;
+  config_.octomap.export_box_m = {0.0, 0.0, 0.0, 2.0, 2.0, 1.0};
+  start();
+  publish({0, 1});
+  run(2.5);
+  ASSERT_FALSE(octomaps_.empty());
+  EXPECT_DOUBLE_EQ(read_back(octomaps_.back()).resolution_m(), 0.2);
+  EXPECT_TRUE(read_back(octomaps_.back()).has(1));
+  const std::size_t before = octomaps_.size();
+  publish({2, 3});
+  run(2.5);
+  EXPECT_EQ(octomaps_.size(), before) << "what lies beside the box is no change";
+  EXPECT_FALSE(read_back(octomaps_.back()).has(2));
+}
+
+TEST_F(OctomapExport, RefusesABoxWithoutCorners) {
+  config_.octomap.export_box_m = {0.0, 1.0};
+  EXPECT_THROW(start(), std::invalid_argument);
+  config_.octomap.export_box_m.clear();
+  config_.octomap.export_resolution_m = 0.05;
+  EXPECT_THROW(start(), std::invalid_argument);
+}
+
 TEST_F(OctomapExport, AsksForTheWholeMapOnceASecondUntilItComes) {
   start();
   run(2.5);

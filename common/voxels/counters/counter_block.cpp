@@ -70,6 +70,11 @@ Planes load(const CounterBlock& block, std::size_t word) {
            load(&block.planes[3][word])}};
 }
 
+Word difference(const Planes& a, const Planes& b) {
+  return (a.bit[0] ^ b.bit[0]) | (a.bit[1] ^ b.bit[1]) | (a.bit[2] ^ b.bit[2]) |
+         (a.bit[3] ^ b.bit[3]);
+}
+
 void store(const Planes& planes, std::size_t word, CounterBlock& block) {
   for (std::size_t p = 0; p < 4; ++p)
     std::memcpy(&block.planes[p][word], &planes.bit[p], sizeof(Word));
@@ -114,16 +119,20 @@ CounterUpdate::CounterUpdate(const CounterRule& rule)
       zero_(static_cast<unsigned>(1 - rule.lowest)),
       highest_(static_cast<unsigned>(1 - rule.lowest + rule.highest)) {}
 
-void CounterUpdate::count(Cells passed, Cells hit, CounterBlock& block) const {
+bool CounterUpdate::count(Cells passed, Cells hit, CounterBlock& block) const {
+  Word changed{};
   for (std::size_t i = 0; i < kWordsInBlock; i += kWords) {
     const Word hits = load(&hit[i]), passes = load(&passed[i]) & ~hits;
     if (is_empty(hits | passes)) continue;
-    Planes v = load(block, i);
+    const Planes before = load(block, i);
+    Planes v = before;
     set(v, (hits | passes) & ~any(v), zero_);
     if (!is_empty(hits)) add(v, hits, hit_, highest_);
     subtract(v, passes, pass_);
     store(v, i, block);
+    changed |= difference(before, v);
   }
+  return !is_empty(changed);
 }
 
 BlockBits CounterUpdate::occupied(const CounterBlock& block) const {

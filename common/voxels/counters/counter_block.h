@@ -32,8 +32,9 @@ class CounterUpdate {
 
   using Cells = std::span<const std::uint64_t, kWordsInBlock>;
 
-  /// Counts one pass, or where a cell is hit one hit alone.
-  void count(Cells passed, Cells hit, CounterBlock& block) const;
+  /// Counts one pass, or where a cell is hit one hit alone. Returns whether a counter changed:
+  /// those at an end of their range may not.
+  bool count(Cells passed, Cells hit, CounterBlock& block) const;
 
   /// Cells whose count is 0 or more.
   BlockBits occupied(const CounterBlock& block) const;

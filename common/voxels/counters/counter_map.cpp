@@ -22,7 +22,8 @@ void CounterMap::add(const RayScratch& scan, const Numbering<Voxel>* only) {
   std::size_t size = 0;
   scan.for_each_block([&](const Voxel& position, CellStore::Block passed, CellStore::Block hit) {
     if (only && only->find(position) == Numbering<Voxel>::kNone) return;
-    updates[size++] = {fetched(counters_at(position)), passed.data(), hit.data()};
+    const std::uint32_t number = number_at(position);
+    updates[size++] = {number, fetched(at(number)), passed.data(), hit.data()};
     if (size == kAtOnce) count(std::span(updates.data(), std::exchange(size, 0)));
   });
   count(std::span(updates.data(), size));
@@ -34,10 +35,11 @@ CounterBlock* CounterMap::fetched(CounterBlock& block) {
   return &block;
 }
 
-void CounterMap::count(std::span<const Update> updates) const {
+void CounterMap::count(std::span<const Update> updates) {
   for (const Update& u : updates)
-    update_.count(CellStore::Block(u.passed, kWordsInBlock), CellStore::Block(u.hit, kWordsInBlock),
-                  *u.block);
+    if (update_.count(CellStore::Block(u.passed, kWordsInBlock),
+                      CellStore::Block(u.hit, kWordsInBlock), *u.block))
+      note_change(u.number);
 }
 
 void CounterMap::forget(const std::vector<Voxel>& blocks) {
@@ -65,13 +67,22 @@ std::vector<std::uint32_t> CounterMap::take_changed() {
 }
 
 CounterBlock& CounterMap::counters_at(const Voxel& position) {
+  const std::uint32_t number = number_at(position);
+  note_change(number);
+  return at(number);
+}
+
+std::uint32_t CounterMap::number_at(const Voxel& position) {
   const std::uint32_t number = positions_.number(position);
   if (number == chunks_.size() * kChunk)
     chunks_.push_back(std::make_unique<CounterBlock[]>(kChunk));
   if (number == is_changed_.size()) is_changed_.push_back(false);
+  return number;
+}
+
+void CounterMap::note_change(std::uint32_t number) {
   if (!is_changed_[number]) changed_.push_back(number);
   is_changed_[number] = true;
-  return chunks_[number / kChunk][number % kChunk];
 }
 
 std::uint64_t CounterMap::hash() const {

@@ -28,7 +28,8 @@ class CounterMap {
 
   /// Counts one pass or one hit for cells of one block.
   void add(const Voxel& position, CellStore::Block passed, CellStore::Block hit) {
-    update_.count(passed, hit, counters_at(position));
+    const std::uint32_t number = number_at(position);
+    if (update_.count(passed, hit, at(number))) note_change(number);
   }
 
   /// The counters of a block, to be changed.
@@ -57,7 +58,7 @@ class CounterMap {
   /// The block's number, or Numbering<Voxel>::kNone.
   std::uint32_t find_block(const Voxel& position) const { return positions_.find(position); }
 
-  /// Numbers of the blocks that were counted in since the last call, each once.
+  /// Numbers of the blocks with counters that changed since the last call, each once.
   std::vector<std::uint32_t> take_changed();
 
   /// A number that depends on what is known of each cell alone, not on the order of blocks.
@@ -73,12 +74,16 @@ class CounterMap {
   static constexpr std::size_t kAtOnce = 32;
 
   struct Update {
+    std::uint32_t number = 0;
     CounterBlock* block = nullptr;
     const std::uint64_t *passed = nullptr, *hit = nullptr;
   };
 
   static CounterBlock* fetched(CounterBlock& block);
-  void count(std::span<const Update> updates) const;
+  void count(std::span<const Update> updates);
+  std::uint32_t number_at(const Voxel& position);
+  CounterBlock& at(std::uint32_t number) { return chunks_[number / kChunk][number % kChunk]; }
+  void note_change(std::uint32_t number);
 
   double resolution_m_;
   CounterRule rule_;

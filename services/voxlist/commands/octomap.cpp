@@ -1,7 +1,6 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -17,18 +16,10 @@ namespace {
 
 struct OctomapOptions {
   std::filesystem::path folder, output, config;
-  double resolution_m = 0.0;
+  double resolution_m = 0.0, voxel_m = 0.0;
   std::vector<double> box_m;
   int threads = 0;
 };
-
-// Its edges lie within the first and the last voxels of the part.
-VoxelBox box_of(const std::vector<double>& m, double resolution_m) {
-  const Voxel a = voxel_at(Eigen::Vector3d(m[0], m[1], m[2]), resolution_m);
-  const Voxel b = voxel_at(Eigen::Vector3d(m[3], m[4], m[5]), resolution_m);
-  return {{std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)},
-          {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}};
-}
 
 void refuse_other_endings(const std::filesystem::path& output) {
   if (output.extension() == ".bt" || output.extension() == ".ot") return;
@@ -37,7 +28,13 @@ void refuse_other_endings(const std::filesystem::path& output) {
 
 int write(const OctomapOptions& options, Console& console) {
   planning::OctomapConfig config = read_settings(options.config).octomap;
-  if (options.resolution_m > 0.0) config.resolution_m = options.resolution_m;
+  if (options.resolution_m > 0.0) {
+    config.resolution_m = options.resolution_m;
+    config.export_resolution_m = 0.0;
+  }
+  if (options.voxel_m > 0.0) config.export_resolution_m = options.voxel_m;
+  if (!options.box_m.empty()) config.export_box_m = options.box_m;
+  const planning::OctomapCut cut = planning::cut_of(config);
   refuse_other_endings(options.output);
   refuse_without_map(options.folder);
   const auto octomap = octomap_of(options.folder, config, options.threads, console);
@@ -45,8 +42,6 @@ int write(const OctomapOptions& options, Console& console) {
     console.warn("interrupted: nothing was written");
     return kInterrupted;
   }
-  planning::OctomapCut cut;
-  if (!options.box_m.empty()) cut.box = box_of(options.box_m, config.resolution_m);
   if (options.output.extension() == ".bt")
     octomap->write_bt(options.output, cut);
   else
@@ -64,6 +59,12 @@ void add_options(CLI::App& command, OctomapOptions& options) {
       ->required();
   command.add_option("--config", options.config, "robot.toml with a table [octomap_export]");
   command.add_option("--resolution", options.resolution_m, "edge of the smallest voxel (m)")
+      ->check(CLI::Range(0.01, 10.0));
+  command
+      .add_option(
+          "--voxels", options.voxel_m,
+          "edge of the voxels of the file (m), above --resolution: occupied where a smaller "
+          "one is, else free where one is")
       ->check(CLI::Range(0.01, 10.0));
   command.add_option("--box", options.box_m, "only what lies between two corners, x y z x y z (m)")
       ->expected(6)

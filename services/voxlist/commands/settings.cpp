@@ -91,7 +91,10 @@ void MakingOptions::add_to(CLI::App& command) {
 
 DeskSettings MakingOptions::settings() const {
   DeskSettings settings = read_settings(config);
-  if (octomap_resolution_m > 0.0) settings.octomap.resolution_m = octomap_resolution_m;
+  if (octomap_resolution_m > 0.0) {
+    settings.octomap.resolution_m = octomap_resolution_m;
+    settings.octomap.export_resolution_m = 0.0;
+  }
   if (carve) settings.mapper.carve = true;
   if (threads > 0) settings.localiser.threads = threads;
   if (tilt) settings.localiser.tilt = *tilt;

@@ -46,8 +46,9 @@ void MapFiles::write_views(const VoxelMap& map, const std::vector<StampedPose3>&
 void MapFiles::write_octomap(const planning::OctomapConfig& config, int threads, bool wanted,
                              Console& console) const {
   if (!wanted) return remove_octomap();
+  const planning::OctomapCut cut = planning::cut_of(config);
   const auto octomap = octomap_of(folder_, config, threads, console);
-  if (octomap) return octomap->write_bt(folder_ / "map.bt");
+  if (octomap) return octomap->write_bt(folder_ / "map.bt", cut);
   remove_octomap();
   console.warn("interrupted: there is no map.bt");
 }
