@@ -139,17 +139,31 @@ std::optional<RecordHeader> parse_first_format_record(std::string_view bytes) {
   return take_counts(bytes, header.payload_bytes) ? std::optional(header) : std::nullopt;
 }
 
-std::string encode_record(const Keyframe& keyframe, std::int64_t map_id, std::uint32_t number) {
-  const std::string payload = encode_payload(keyframe);
+namespace {
+
+std::string encode_record(std::uint32_t kind, const std::string& payload, std::int64_t map_id,
+                          std::uint32_t number) {
   std::string record(kSync);
   record.reserve(kRecordHeaderBytes + payload.size());
-  put(record, RecordHeader::kKeyframe);
+  put(record, kind);
   put(record, static_cast<std::uint32_t>(payload.size()));
   put(record, number);
   put(record, map_id);
   put(record, checksum_of(payload));
   put(record, checksum_of(record));
   return record += payload;
+}
+
+}  // namespace
+
+std::string encode_record(const Keyframe& keyframe, std::int64_t map_id, std::uint32_t number) {
+  return encode_record(RecordHeader::kKeyframe, encode_payload(keyframe), map_id, number);
+}
+
+std::string encode_moved(std::int64_t moves, std::int64_t map_id, std::uint32_t number) {
+  std::string payload;
+  put(payload, moves);
+  return encode_record(RecordHeader::kMoved, payload, map_id, number);
 }
 
 std::optional<Keyframe> decode_payload(std::string_view payload) {

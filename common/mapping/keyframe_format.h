@@ -15,6 +15,9 @@
 ///     payload utime in us (int64), T_map_base (12 doubles, row-major 3 x 4), points and origins
 ///             (uint32 each), then their coordinates in m (3 float32 each)
 ///
+/// A record of kind 2 says that keyframes were moved since they came: the graph beside the file
+/// (graph/stored_graph.h) tells where they are. Its payload is how often they were (int64).
+///
 /// Checksums are zlib's CRC-32. A record stands for itself: it has its own sync word, so that it is
 /// found after any damage, and the map's id, so that the file's header can be lost.
 ///
@@ -46,7 +49,7 @@ FileHeader first_format_header(std::string_view bytes);
 
 /// What a record's header says.
 struct RecordHeader {
-  static constexpr std::uint32_t kKeyframe = 1;
+  static constexpr std::uint32_t kKeyframe = 1, kMoved = 2;
 
   std::uint32_t kind = kKeyframe;
   std::uint32_t payload_bytes = 0;
@@ -68,6 +71,9 @@ std::uint32_t checksum_of(std::string_view bytes);
 
 /// The whole record of a keyframe.
 std::string encode_record(const Keyframe& keyframe, std::int64_t map_id, std::uint32_t number);
+
+/// The whole record that says that keyframes were moved.
+std::string encode_moved(std::int64_t moves, std::int64_t map_id, std::uint32_t number);
 
 /// The keyframe in a payload; nothing when its lengths do not fit together, or its pose is no pose.
 std::optional<Keyframe> decode_payload(std::string_view payload);

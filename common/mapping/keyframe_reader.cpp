@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <string>
 
+#include "voxlist/geometry/tilt.h"
 #include "voxlist/io/files/file.h"
 
 namespace voxlist::mapping {
@@ -17,6 +18,7 @@ constexpr std::uint64_t kSearched = std::uint64_t{1} << 20;
 
 KeyframeReader::KeyframeReader(const std::filesystem::path& file) : file_(file) {
   read_file_header();
+  read_graph();
 }
 
 void KeyframeReader::read_file_header() {
@@ -37,6 +39,22 @@ void KeyframeReader::read_file_header() {
   }
 }
 
+void KeyframeReader::read_graph() {
+  FoundGraph found = find_graph(file_.path().parent_path(), map_id_);
+  graph_fault_ = std::move(found.fault);
+  has_graph_ = found.is_there;
+  if (!found.graph) return;
+  moves_ = found.graph->moves;
+  graph_ = GraphPoses(std::move(found.graph->keyframes));
+}
+
+// One that was not moved stays as it is in every bit.
+void KeyframeReader::place_by_graph(Keyframe& keyframe) {
+  const auto found = graph_.next(keyframe.cloud.utime_us);
+  if (found && found->T_map_keyframe != to_pose2(keyframe.T_map_base))
+    keyframe.T_map_base = to_pose3(found->T_map_keyframe, tilt_of(keyframe.T_map_base));
+}
+
 void KeyframeReader::adopt(const FileHeader& header) {
   map_id_ = header.map_id;
   position_ = header.bytes;
@@ -49,8 +67,11 @@ std::optional<Keyframe> KeyframeReader::next() {
     position_ = record->end;
     if (is_repeated(record->header)) continue;
     last_ = record->header;
+    was_moved_ = was_moved_ || record->header.kind == RecordHeader::kMoved;
+    if (record->header.kind == RecordHeader::kMoved) continue;
     next_number_ = std::max(next_number_, record->header.number) + 1;
     if (!record->keyframe) continue;
+    place_by_graph(*record->keyframe);
     place_ = {record->start, record->end - record->start};
     ++whole_;
     return std::move(record->keyframe);
@@ -128,6 +149,18 @@ double KeyframeReader::progress() const {
 }
 
 std::string KeyframeReader::warning() const {
+  const std::string damaged = damage(), graph = graph_fault();
+  return damaged.empty() || graph.empty() ? damaged + graph : damaged + "; " + graph;
+}
+
+std::string KeyframeReader::graph_fault() const {
+  constexpr const char* kLeft = ": keyframes stand where they were when they came";
+  if (!graph_fault_.empty()) return graph_fault_ + kLeft;
+  if (has_graph_ || !was_moved_) return {};
+  return (file_.path().parent_path() / kGraphFile).string() + " is missing" + kLeft;
+}
+
+std::string KeyframeReader::damage() const {
   if (damaged_places_ == 0) return {};
   return fmt::format("{}: damaged in {} {} ({} bytes), which {} left out; {} keyframes are whole",
                      file_.path().string(), damaged_places_,

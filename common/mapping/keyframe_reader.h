@@ -6,6 +6,7 @@
 #include <string>
 
 #include "voxlist/io/files/file_window.h"
+#include "voxlist/mapping/graph/stored_graph.h"
 #include "voxlist/mapping/keyframe_format.h"
 
 namespace voxlist::mapping {
@@ -17,7 +18,8 @@ struct KeyframePlace {
 };
 
 /// Hands out the keyframes of a file one by one, in memory for one of them. After any damage it
-/// goes on with the next whole record: a flipped bit costs at most the record that it is in.
+/// goes on with the next whole record: a flipped bit costs at most the record that it is in. Where
+/// the folder has the map's graph, keyframes stand where that says.
 class KeyframeReader {
  public:
   /// Throws FileError when there is no such file or it is no keyframe file.
@@ -29,7 +31,7 @@ class KeyframeReader {
   /// Where in the file the keyframe lies that next() handed out last.
   KeyframePlace place() const { return place_; }
 
-  /// The keyframe at a place, also of one that was appended after the opening; nothing when it is
+  /// The keyframe at a place as it was when it came, also of one that was appended after the opening; nothing when it is
   /// no longer whole. next() does not go on from there. Throws FileError when the disk cannot be
   /// read.
   std::optional<Keyframe> at(const KeyframePlace& place);
@@ -40,10 +42,17 @@ class KeyframeReader {
   /// The number for the record after those that were handed out.
   std::uint32_t next_number() const { return next_number_; }
 
+  /// How often the map's keyframes were moved, as the graph says.
+  std::int64_t moves() const { return moves_; }
+
   /// How far it has come in the file, 0..1.
   double progress() const;
 
-  /// What was damaged so far, one line for the log; empty when all was whole.
+  /// Whether something of the file was left out so far.
+  bool is_damaged() const { return damaged_places_ > 0; }
+
+  /// What was damaged so far, and what is wrong with the graph, one line for the log; empty when
+  /// all was whole.
   std::string warning() const;
 
  private:
@@ -55,6 +64,10 @@ class KeyframeReader {
   };
 
   void read_file_header();
+  void read_graph();
+  void place_by_graph(Keyframe& keyframe);
+  std::string damage() const;
+  std::string graph_fault() const;
   void adopt(const FileHeader& header);
   std::optional<RecordHeader> header_at(std::uint64_t offset);
   std::optional<Record> record_at(std::uint64_t offset);
@@ -70,6 +83,10 @@ class KeyframeReader {
   KeyframePlace place_;
   std::optional<RecordHeader> last_;
   std::uint32_t next_number_ = 0;
+  std::string graph_fault_;
+  bool has_graph_ = false, was_moved_ = false;
+  std::int64_t moves_ = 0;
+  GraphPoses graph_;
   std::uint64_t whole_ = 0;
   std::uint64_t damaged_places_ = 0;
   std::uint64_t damaged_bytes_ = 0;

@@ -63,11 +63,20 @@ KeyframeWriter::KeyframeWriter(const std::filesystem::path& file, std::int64_t m
   size_ = info_of(file_.get()).st_size;
 }
 
+KeyframePlace KeyframeWriter::append(const Keyframe& keyframe) {
+  const KeyframePlace place = append(encode_record(keyframe, map_id_, next_number_));
+  ++next_number_;
+  return place;
+}
+
+void KeyframeWriter::append_moved(std::int64_t moves) {
+  append(encode_moved(moves, map_id_, next_number_));
+}
+
 // What failed is cut off again. Where even that fails, a torn record stays, which the reader steps
 // over. After a failed sync the system may have dropped what was written, so that goes, too.
-KeyframePlace KeyframeWriter::append(const Keyframe& keyframe) try {
+KeyframePlace KeyframeWriter::append(const std::string& record) try {
   const std::int64_t before = info_of(file_.get()).st_size;
-  const std::string record = encode_record(keyframe, map_id_, next_number_);
   try {
     if (!write_all(file_.get(), record)) fail("cannot write a keyframe");
     if (::fdatasync(file_.get()) != 0) fail("cannot bring a keyframe to the disk");
@@ -76,7 +85,6 @@ KeyframePlace KeyframeWriter::append(const Keyframe& keyframe) try {
     throw;
   }
   size_ = info_of(file_.get()).st_size;
-  ++next_number_;
   return {static_cast<std::uint64_t>(before), record.size()};
 } catch (const std::runtime_error& failure) {
   throw io::FileError(path_, failure.what() + std::string("; the keyframes before it are safe"));

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 #include "voxlist/io/files/atomic_file.h"
@@ -44,10 +45,15 @@ class KeyframeWriter {
   /// appended again.
   KeyframePlace append(const Keyframe& keyframe);
 
+  /// Says in the file that keyframes were moved: the graph tells where they are. As append().
+  void append_moved(std::int64_t moves);
+
   /// Whether the file is still where it was opened, and nobody has cut it.
   bool is_in_place() const;
 
  private:
+  KeyframePlace append(const std::string& record);
+
   std::filesystem::path path_;
   FileDescriptor file_;
   std::int64_t map_id_;

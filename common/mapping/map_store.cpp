@@ -8,6 +8,7 @@
 
 #include "voxlist/io/files/file.h"
 #include "voxlist/io/files/keep_aside.h"
+#include "voxlist/mapping/graph/stored_graph.h"
 #include "voxlist/mapping/keyframe_reader.h"
 
 namespace voxlist::mapping {
@@ -57,16 +58,27 @@ void MapStore::read(std::int64_t new_map_id, const Take& take) {
     take(std::move(*keyframe));
   }
   map_id_ = reader.map_id().value_or(new_map_id);
+  moves_ = reader.moves();
   notice_ = reader.warning();
-  if (!notice_.empty()) mend(places);
+  if (reader.is_damaged()) mend(places);
   writer_ = std::make_unique<KeyframeWriter>(file(), map_id_, reader.next_number());
   keyframes_ = std::make_unique<StoredKeyframes>(file(), std::move(places));
+}
+
+// One that is not this map's may be somebody's.
+void MapStore::write_moved(const StoredGraph& graph) {
+  if (!find_graph(folder_, map_id_).fault.empty())
+    io::keep_aside(folder_ / kGraphFile, ".damaged");
+  write_graph(folder_, graph);
+  moves_ = graph.moves;
+  writer_->append_moved(graph.moves);
 }
 
 void MapStore::begin_anew(std::int64_t new_map_id) {
   NewKeyframeFile empty(file(), new_map_id);
   if (keyframes_->size() > 0) io::keep_aside(file(), ".given-up");
   empty.commit();
+  remove_graph(folder_);
   read(new_map_id, [](const Keyframe&) {});
 }
 

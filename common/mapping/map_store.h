@@ -37,7 +37,7 @@ class StoredKeyframes {
   /// Bytes of a keyframe in the file.
   std::uint64_t bytes(std::size_t index) const { return places_[index].bytes; }
 
-  /// A keyframe; nothing when its record was damaged or cut off meanwhile. Throws FileError when
+  /// A keyframe as it was when it came; nothing when its record was damaged or cut off meanwhile. Throws FileError when
   /// the disk cannot be read.
   std::optional<Keyframe> read(std::size_t index) { return reader_.at(places_[index]); }
 
@@ -75,6 +75,13 @@ class MapStore {
   /// As KeyframeWriter::append.
   void append(const Keyframe& keyframe) { keyframes_->add(writer_->append(keyframe)); }
 
+  /// The map's keyframes were moved: their graph replaces the one that is there. Throws FileError;
+  /// then that is there. What is appended from now on stands where it stands.
+  void write_moved(const StoredGraph& graph);
+
+  /// How often they were moved so far.
+  std::int64_t moves() const { return moves_; }
+
   /// What is on the disk.
   StoredKeyframes& keyframes() { return *keyframes_; }
 
@@ -90,6 +97,7 @@ class MapStore {
   FileLock lock_;
   std::int64_t map_id_ = 0;
   std::string notice_;
+  std::int64_t moves_ = 0;
   std::unique_ptr<KeyframeWriter> writer_;
   std::unique_ptr<StoredKeyframes> keyframes_;
 };

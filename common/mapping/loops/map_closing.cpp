@@ -54,7 +54,8 @@ bool is_open(const std::vector<Pose2>& poses, const std::vector<PoseEdge>& drive
 
 MapClosing close_map(const std::vector<Pose2>& poses, const DriveOdometry& odometry,
                      const ReadCloud& read, const matching::MatcherConfig& config) {
-  MapClosing closing{poses};
+  MapClosing closing;
+  closing.poses = poses;
   if (!has_long_step(poses) && !may_come_back(poses, config.scan.max_range_m)) return closing;
   const std::vector<PoseEdge> drive = join_neighbours(poses, odometry, read, config);
   const PoseTree tree(poses.size(), drive);
@@ -64,6 +65,8 @@ MapClosing close_map(const std::vector<Pose2>& poses, const DriveOdometry& odome
   if (closed.loops.empty() || !is_open(poses, drive, closed.loops)) return closing;
   closing.loops = closed.loops.size();
   closing.moves = true;
+  closing.edges = drive;
+  for (const Loop& loop : closed.loops) closing.edges.push_back(loop.edge);
   std::transform(closed.poses.begin(), closed.poses.end(), closing.poses.begin(), rounded);
   return closing;
 }

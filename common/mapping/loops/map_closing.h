@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "voxlist/mapping/graph/pose_edge.h"
 #include "voxlist/mapping/loops/local_map.h"
 #include "voxlist/mapping/loops/odometry_step.h"
 
@@ -17,6 +18,8 @@ struct MapClosing {
   /// Those that agree with each other and were not believed: they would move the past by more than
   /// it may be off.
   std::size_t refused = 0;
+  /// What holds the keyframes where loops are closed: by the drive, and by loops.
+  std::vector<PoseEdge> edges;
   /// Whether keyframes are to be moved. A drive that was tracked on its own old ground is closed.
   bool moves = false;
 };

@@ -6,6 +6,7 @@
 #include "services/voxlist/maps/octomap_of.h"
 #include "voxlist/io/files/atomic_file.h"
 #include "voxlist/io/files/file.h"
+#include "voxlist/mapping/graph/stored_graph.h"
 #include "voxlist/mapping/map_store.h"
 #include "voxlist/mapping/map_views.h"
 
@@ -37,6 +38,7 @@ void MapFiles::write_keyframes(mapping::KeyframeSpool& spool,
                                const std::vector<mapping::SpooledKeyframe>& keyframes,
                                const VoxelMap& map) const {
   spool.write(folder_ / mapping::kKeyframeFile, map_id(map), keyframes);
+  mapping::remove_graph(folder_);
 }
 
 void MapFiles::write_views(const VoxelMap& map, const std::vector<StampedPose3>& trajectory) const {

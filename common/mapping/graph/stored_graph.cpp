@@ -1,0 +1,201 @@
+#include "voxlist/mapping/graph/stored_graph.h"
+
+#include <fmt/core.h>
+#include <zlib.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <charconv>
+#include <iterator>
+
+#include "voxlist/io/files/atomic_file.h"
+#include "voxlist/io/files/file.h"
+
+namespace voxlist::mapping {
+namespace {
+
+constexpr std::string_view kTitle = "# voxlist graph 1";
+constexpr std::string_view kEnd = "# checksum ";
+
+using Out = std::back_insert_iterator<std::string>;
+
+std::uint32_t checksum_of(std::string_view bytes) {
+  return static_cast<std::uint32_t>(
+      crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+}
+
+// Without a precision, numbers are written so that reading gives the same bits.
+void write(const Pose2& pose, Out out) {
+  fmt::format_to(out, " {} {} {}", pose.x_m, pose.y_m, pose.yaw_rad);
+}
+
+void write(const StoredGraph::Keyframe& keyframe, std::size_t number, Out out) {
+  fmt::format_to(out, "VERTEX_SE2 {}", number);
+  write(keyframe.T_map_keyframe, out);
+  fmt::format_to(out, "\n# keyframe {} {} {}", keyframe.utime_us, int{keyframe.begins_session},
+                 int{keyframe.T_odom_keyframe.has_value()});
+  if (keyframe.T_odom_keyframe) write(*keyframe.T_odom_keyframe, out);
+  fmt::format_to(out, "\n");
+}
+
+void write(const PoseEdge& edge, Out out) {
+  fmt::format_to(out, "EDGE_SE2 {} {}", edge.from, edge.to);
+  write(edge.T_from_to.pose, out);
+  const Eigen::Matrix3d information = edge.T_from_to.covariance.inverse();
+  for (int row = 0; row < 3; ++row)
+    for (int column = row; column < 3; ++column)
+      fmt::format_to(out, " {}", information(row, column));
+  fmt::format_to(out, "\n");
+}
+
+// Takes words off a text, one after the other; after the first that is none, nothing is told any
+// more.
+class Words {
+ public:
+  explicit Words(std::string_view text) : text_(text) {}
+
+  bool is(std::string_view word) {
+    skip_blanks();
+    if (!text_.starts_with(word)) return false;
+    text_.remove_prefix(word.size());
+    return true;
+  }
+
+  template <class T>
+  T number() {
+    skip_blanks();
+    T value{};
+    const auto [end, error] = std::from_chars(text_.data(), text_.data() + text_.size(), value);
+    if (error != std::errc{}) good_ = false;
+    text_.remove_prefix(static_cast<std::size_t>(end - text_.data()));
+    return value;
+  }
+
+  Pose2 pose() {
+    Pose2 pose;
+    for (double* part : {&pose.x_m, &pose.y_m, &pose.yaw_rad}) *part = number<double>();
+    return pose;
+  }
+
+  Eigen::Matrix3d symmetric() {
+    Eigen::Matrix3d matrix;
+    for (int row = 0; row < 3; ++row)
+      for (int column = row; column < 3; ++column)
+        matrix(row, column) = matrix(column, row) = number<double>();
+    return matrix;
+  }
+
+  bool good() const { return good_; }
+
+ private:
+  void skip_blanks() {
+    text_.remove_prefix(std::min(text_.find_first_not_of(" \n"), text_.size()));
+  }
+
+  std::string_view text_;
+  bool good_ = true;
+};
+
+StoredGraph::Keyframe read_keyframe(Words& words) {
+  StoredGraph::Keyframe keyframe;
+  words.number<std::size_t>();
+  keyframe.T_map_keyframe = words.pose();
+  words.is("# keyframe");
+  keyframe.utime_us = words.number<std::int64_t>();
+  keyframe.begins_session = words.number<int>() != 0;
+  if (words.number<int>() != 0) keyframe.T_odom_keyframe = words.pose();
+  return keyframe;
+}
+
+PoseEdge read_edge(Words& words) {
+  PoseEdge edge;
+  edge.from = words.number<std::size_t>();
+  edge.to = words.number<std::size_t>();
+  edge.T_from_to.pose = words.pose();
+  edge.T_from_to.covariance = words.symmetric().inverse();
+  return edge;
+}
+
+bool holds_together(const StoredGraph& graph) {
+  const std::size_t size = graph.keyframes.size();
+  return std::all_of(graph.edges.begin(), graph.edges.end(), [&](const PoseEdge& edge) {
+    return edge.from < size && edge.to < size && edge.from != edge.to;
+  });
+}
+
+// The text before its last line, if that has the checksum of it.
+std::optional<std::string_view> whole_text(std::string_view text) {
+  const std::size_t end = text.rfind(kEnd);
+  if (end == std::string_view::npos) return std::nullopt;
+  Words last(text.substr(end + kEnd.size()));
+  const auto checksum = last.number<std::uint32_t>();
+  const std::string_view body = text.substr(0, end);
+  return last.good() && checksum == checksum_of(body) ? std::optional(body) : std::nullopt;
+}
+
+}  // namespace
+
+std::string to_g2o(const StoredGraph& graph) {
+  std::string text(kTitle);
+  const Out out(text);
+  fmt::format_to(out, "\n# map {} moves {}\n", graph.map_id, graph.moves);
+  for (std::size_t i = 0; i < graph.keyframes.size(); ++i) write(graph.keyframes[i], i, out);
+  if (!graph.keyframes.empty()) text += "FIX 0\n";
+  for (const PoseEdge& edge : graph.edges) write(edge, out);
+  fmt::format_to(out, "{}{}\n", kEnd, checksum_of(std::string_view(text)));
+  return text;
+}
+
+std::optional<StoredGraph> parse_g2o(std::string_view text) {
+  const auto body = whole_text(text);
+  if (!body) return std::nullopt;
+  Words words(*body);
+  StoredGraph graph;
+  if (!words.is(kTitle) || !words.is("# map")) return std::nullopt;
+  graph.map_id = words.number<std::int64_t>();
+  words.is("moves");
+  graph.moves = words.number<std::int64_t>();
+  while (words.good() && words.is("VERTEX_SE2")) graph.keyframes.push_back(read_keyframe(words));
+  words.is("FIX 0");
+  while (words.good() && words.is("EDGE_SE2")) graph.edges.push_back(read_edge(words));
+  return words.good() && holds_together(graph) ? std::optional(std::move(graph)) : std::nullopt;
+}
+
+void write_graph(const std::filesystem::path& folder, const StoredGraph& graph) {
+  io::write_file_atomically(folder / kGraphFile, to_g2o(graph));
+}
+
+void remove_graph(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  std::filesystem::remove(folder / kGraphFile, ignored);
+}
+
+FoundGraph find_graph(const std::filesystem::path& folder, std::optional<std::int64_t> map_id) {
+  const std::filesystem::path file = folder / kGraphFile;
+  std::error_code error;
+  FoundGraph found;
+  if (!std::filesystem::exists(file, error)) return found;
+  found.is_there = true;
+  try {
+    found.graph = parse_g2o(io::read_file(file));
+    if (!found.graph) found.fault = file.string() + " is torn";
+  } catch (const io::FileError& failure) {
+    found.fault = failure.what();
+  }
+  if (!found.graph || found.graph->map_id == map_id) return found;
+  found.fault = file.string() + " is of another map";
+  found.graph.reset();
+  return found;
+}
+
+std::optional<StoredGraph::Keyframe> GraphPoses::next(std::int64_t utime_us) {
+  const auto begin = keyframes_.begin() + static_cast<std::ptrdiff_t>(position_);
+  const auto at = std::find_if(begin, keyframes_.end(), [&](const StoredGraph::Keyframe& keyframe) {
+    return keyframe.utime_us == utime_us;
+  });
+  if (at == keyframes_.end()) return std::nullopt;
+  position_ = static_cast<std::size_t>(at - keyframes_.begin()) + 1;
+  return *at;
+}
+
+}  // namespace voxlist::mapping
