@@ -31,9 +31,9 @@ class KeyframeReader {
   /// Where in the file the keyframe lies that next() handed out last.
   KeyframePlace place() const { return place_; }
 
-  /// The keyframe at a place as it was when it came, also of one that was appended after the opening; nothing when it is
-  /// no longer whole. next() does not go on from there. Throws FileError when the disk cannot be
-  /// read.
+  /// The keyframe at a place as it was when it came, also of one that was appended after the
+  /// opening; nothing when it is no longer whole. next() does not go on from there. Throws
+  /// FileError when the disk cannot be read.
   std::optional<Keyframe> at(const KeyframePlace& place);
 
   /// The map's id; nothing in a file that is too short to hold one.

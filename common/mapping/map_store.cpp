@@ -66,11 +66,10 @@ void MapStore::read(std::int64_t new_map_id, const Take& take) {
 }
 
 // One that is not this map's may be somebody's.
-void MapStore::write_moved(const StoredGraph& graph) {
-  if (!find_graph(folder_, map_id_).fault.empty())
-    io::keep_aside(folder_ / kGraphFile, ".damaged");
-  write_graph(folder_, graph);
-  moves_ = graph.moves;
+void MapStore::write_graph(const StoredGraph& graph) {
+  if (!find_graph(folder_, map_id_).fault.empty()) io::keep_aside(folder_ / kGraphFile, ".damaged");
+  mapping::write_graph(folder_, graph);
+  if (graph.moves == std::exchange(moves_, graph.moves)) return;
   writer_->append_moved(graph.moves);
 }
 

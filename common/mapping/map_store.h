@@ -37,8 +37,8 @@ class StoredKeyframes {
   /// Bytes of a keyframe in the file.
   std::uint64_t bytes(std::size_t index) const { return places_[index].bytes; }
 
-  /// A keyframe as it was when it came; nothing when its record was damaged or cut off meanwhile. Throws FileError when
-  /// the disk cannot be read.
+  /// A keyframe as it was when it came; nothing when its record was damaged or cut off meanwhile.
+  /// Throws FileError when the disk cannot be read.
   std::optional<Keyframe> read(std::size_t index) { return reader_.at(places_[index]); }
 
   /// One more was appended to the file.
@@ -75,9 +75,9 @@ class MapStore {
   /// As KeyframeWriter::append.
   void append(const Keyframe& keyframe) { keyframes_->add(writer_->append(keyframe)); }
 
-  /// The map's keyframes were moved: their graph replaces the one that is there. Throws FileError;
-  /// then that is there. What is appended from now on stands where it stands.
-  void write_moved(const StoredGraph& graph);
+  /// Where the keyframes stand that are there now: this graph replaces the one that is there.
+  /// Throws FileError. What is appended from now on stands where it says.
+  void write_graph(const StoredGraph& graph);
 
   /// How often they were moved so far.
   std::int64_t moves() const { return moves_; }

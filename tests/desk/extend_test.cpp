@@ -47,10 +47,11 @@ class StoredMaps : public testing::Test {
   std::string text(const std::string& name) const { return test::read_text(folder_ + "/" + name); }
   nlohmann::json summary() const { return nlohmann::json::parse(text("summary.json")); }
 
-  void expect_refusal(std::vector<std::string> arguments, const std::string& words) {
+  void expect_refusal(std::vector<std::string> arguments, const std::string& words,
+                      int exit_code = 1) {
     const std::string before = text(mapping::kKeyframeFile);
     const test::DeskRun run = desk(std::move(arguments));
-    EXPECT_EQ(run.exit_code, 1);
+    EXPECT_EQ(run.exit_code, exit_code);
     EXPECT_THAT(run.err, HasSubstr(words));
     EXPECT_EQ(text(mapping::kKeyframeFile), before);
   }
@@ -156,6 +157,17 @@ TEST_F(Extend, GivesAMapThatCanBeExportedThoughItsTimesGoBack) {
             summary()["map_hash"]);
 }
 
+TEST_F(Extend, IsWhatMapDoesWhenItIsToldAMapToExtend) {
+  const std::string other = work_ / "other";
+  fs::copy(folder_, other, fs::copy_options::recursive);
+  ASSERT_EQ(desk({"extend", folder_, scans_}).exit_code, 0);
+  ASSERT_EQ(desk({"map", scans_, "--into", other}).exit_code, 0);
+  for (const std::string file : {"keyframes.voxlist", "graph.g2o", "map.ply", "trajectory.tum"})
+    EXPECT_EQ(test::read_text(other + "/" + file), text(file)) << file;
+  EXPECT_GT(desk({"map", scans_}).exit_code, 100);
+  EXPECT_GT(desk({"map", scans_, "--into", other, "-o", folder_}).exit_code, 100);
+}
+
 TEST_F(Extend, GivesTheVeryMapThatARebuildGives) {
   ASSERT_EQ(desk({"extend", folder_, scans_}).exit_code, 0);
   const std::string voxels = text("map.ply"), octomap = text("map.bt");
@@ -174,7 +186,7 @@ TEST_F(Extend, LeavesAMapAloneInWhichNoScanIsFound) {
              std::to_string(0.01 * i) + '\n';
   test::write_text(work_ / "elsewhere/scan_0.ply", cloud);
   const std::string views = text("map.ply") + text("summary.json");
-  expect_refusal({"extend", folder_, work_ / "elsewhere"}, "none of the 1 scans");
+  expect_refusal({"extend", folder_, work_ / "elsewhere"}, "none of the 1 scans", 3);
   EXPECT_EQ(text("map.ply") + text("summary.json"), views);
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "services/voxlist/commands/command.h"
+#include "services/voxlist/commands/extend.h"
 #include "services/voxlist/commands/settings.h"
 #include "services/voxlist/maps/map_files.h"
 #include "services/voxlist/maps/map_run.h"
@@ -21,6 +22,7 @@ namespace {
 struct MapOptions {
   std::filesystem::path input;
   std::filesystem::path folder;
+  std::filesystem::path into;
   std::filesystem::path poses;
   MakingOptions making;
   bool force = false;
@@ -144,12 +146,18 @@ void add_options(CLI::App& command, MapOptions& options) {
   command
       .add_option("INPUT", options.input, "LCM log with CLOUD (and ODOMETRY), or folder of scans")
       ->required();
-  command.add_option("-o,--output", options.folder, "map folder; its old map is replaced")
-      ->required();
-  command.add_option("--use-poses", options.poses,
-                     "table of poses (poses.csv, or a file of TUM, KITTI or EuRoC) to put the "
-                     "scans at, instead of localising them");
-  command.add_flag("--force", options.force, "replace the folder's map also if a robot made it");
+  CLI::Option_group* where = command.add_option_group("Where");
+  where->require_option(1);
+  where->add_option("-o,--output", options.folder, "map folder; its old map is replaced");
+  CLI::Option* into =
+      where->add_option("--into", options.into, "map folder whose map is extended: voxlist extend");
+  command
+      .add_option("--use-poses", options.poses,
+                  "table of poses (poses.csv, or a file of TUM, KITTI or EuRoC) to put the scans "
+                  "at, instead of localising them")
+      ->excludes(into);
+  command.add_flag("--force", options.force, "replace the folder's map also if a robot made it")
+      ->excludes(into);
   options.making.add_to(command);
 }
 
@@ -162,12 +170,16 @@ void add_map(CLI::App& program, Command& chosen) {
   add_options(*command, *options);
   command->footer(
       "Writes trajectory.tum, map.ply, map.png, map.bt, keyframes.voxlist, summary.json.\n"
+      "--into MAPDIR: the same as voxlist extend MAPDIR INPUT.\n"
       "Exit code 3: less than half of the scans were placed; the last line says what would help.\n"
       "Examples:\n"
       "  voxlist map hall.lcmlog -o hall_map\n"
       "  voxlist map hall -o hall_map --use-poses hall/poses.csv --octomap-resolution 0.2");
   command->callback([options, &chosen] {
-    chosen = [options](Console& console) { return map(*options, console); };
+    chosen = [options](Console& console) {
+      if (options->into.empty()) return map(*options, console);
+      return extend({options->into, options->input, options->making}, console);
+    };
   });
 }
 

@@ -1,8 +1,9 @@
 #include "services/voxlist/maps/piece.h"
 
-#include <algorithm>
-#include <cstdlib>
+#include <span>
 #include <utility>
+
+#include "services/voxlist/maps/sessions/carried_scans.h"
 
 namespace voxlist::desk {
 
@@ -35,25 +36,13 @@ void Piece::move_keyframes(const std::vector<Pose2>& T_piece_base) {
     pose = to_pose3(T_piece_base[i], tilt_of(pose));
     builder_.add(spool_.read(keyframes_[i]));
   }
-  for (std::size_t scan = 0; scan < trajectory_.size(); ++scan) {
-    const std::size_t i = keyframe_beside(scan, before);
-    Pose3& pose = trajectory_[scan].pose;
-    pose = keyframes_[i].T_map_base * before[i].pose.inverse() * pose;
-  }
-}
-
-// The keyframe of the scan's session that was taken nearest in time.
-std::size_t Piece::keyframe_beside(std::size_t scan,
-                                   const std::vector<StampedPose3>& keyframes) const {
-  const auto away_us = [&](const StampedPose3& keyframe) {
-    return std::abs(keyframe.utime_us - trajectory_[scan].utime_us);
+  const auto carry = [&](Begin begin, Begin end) {
+    carry_scans(std::span(trajectory_).subspan(begin.scan, end.scan - begin.scan),
+                std::span(before).subspan(begin.keyframe, end.keyframe - begin.keyframe),
+                std::span(builder_.poses()).subspan(begin.keyframe, end.keyframe - begin.keyframe));
   };
-  const auto second = keyframes.begin() + static_cast<std::ptrdiff_t>(first_session());
-  const bool in_first = scan < second_session_.scan;
-  const auto at =
-      std::min_element(in_first ? keyframes.begin() : second, in_first ? second : keyframes.end(),
-                       [&](const auto& a, const auto& b) { return away_us(a) < away_us(b); });
-  return static_cast<std::size_t>(at - keyframes.begin());
+  if (first_session() > 0) carry({}, second_session_);
+  carry(second_session_, {keyframes_.size(), trajectory_.size()});
 }
 
 void Piece::join(const Piece& other, const Pose2& T_this_other) {
@@ -62,7 +51,7 @@ void Piece::join(const Piece& other, const Pose2& T_this_other) {
     keyframe.T_map_base = to_here * keyframe.T_map_base;
     const mapping::Keyframe added = add_to_map(spool_.read(keyframe));
     if (keep_)
-      keep_(added);
+      keep_(added, keyframe.T_odom_base);
     else
       keyframes_.push_back(keyframe);
   }
@@ -72,7 +61,7 @@ void Piece::join(const Piece& other, const Pose2& T_this_other) {
 
 void Piece::add(mapping::Keyframe keyframe, const std::optional<Pose2>& T_odom_base) {
   keyframe = add_to_map(std::move(keyframe));
-  if (keep_) return keep_(keyframe);
+  if (keep_) return keep_(keyframe, T_odom_base);
   keyframes_.push_back({spool_.add(keyframe), keyframe.T_map_base, T_odom_base});
 }
 

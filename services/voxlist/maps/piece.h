@@ -15,8 +15,9 @@ namespace voxlist::desk {
 /// its first scan or of a map that was there before. Its keyframes wait in a spool.
 class Piece {
  public:
-  /// Is given each keyframe that goes into the map, for whoever keeps them elsewhere.
-  using Keep = std::function<void(const mapping::Keyframe&)>;
+  /// Is given each keyframe that goes into the map, and odometry's pose then, for whoever keeps
+  /// them elsewhere.
+  using Keep = std::function<void(const mapping::Keyframe&, const std::optional<Pose2>&)>;
 
   /// The spool must outlive it. A piece with `keep` leaves nothing in the spool.
   Piece(const matching::LocaliserConfig& localiser, mapping::MapBuilder map,
@@ -66,7 +67,6 @@ class Piece {
     std::size_t keyframe = 0, scan = 0;
   };
 
-  std::size_t keyframe_beside(std::size_t scan, const std::vector<StampedPose3>& keyframes) const;
   void add(mapping::Keyframe keyframe, const std::optional<Pose2>& T_odom_base);
   mapping::Keyframe add_to_map(mapping::Keyframe keyframe);
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "services/voxlist/maps/piece.h"
-#include "voxlist/mapping/loops/map_closing.h"
+#include "voxlist/mapping/loops/session_closing.h"
 
 namespace voxlist::desk {
 

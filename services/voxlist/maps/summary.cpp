@@ -12,8 +12,9 @@ namespace voxlist::desk {
 namespace {
 
 // Keys that count what each run did.
-constexpr auto kCounts = {"scans",     "placed",       "lost",     "ambiguous", "pieces",
-                          "in_pieces", "without_pose", "left_out", "seconds",   "elapsed_seconds"};
+constexpr auto kCounts = {"scans",    "placed",  "lost",           "ambiguous",
+                          "pieces",   "loops",   "in_pieces",      "without_pose",
+                          "left_out", "seconds", "elapsed_seconds"};
 
 void set_factor(Summary& summary) {
   const double elapsed_s = summary["elapsed_seconds"].get<double>();

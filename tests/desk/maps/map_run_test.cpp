@@ -279,7 +279,9 @@ TEST_F(MapRunTest, KeepsWhatJoinsAMapThatWasThereAndNothingElse) {
     before.add({to_pose3(in_room(0, share)), scan_of(world_, in_room(0, share), 99)});
   std::vector<mapping::Keyframe> kept;
   MapRun run({}, {}, spool_, std::move(before),
-             [&](const mapping::Keyframe& keyframe) { kept.push_back(keyframe); });
+             [&](const mapping::Keyframe& keyframe, const std::optional<Pose2>&) {
+               kept.push_back(keyframe);
+             });
   for (const double share : {0.2, 0.1}) see(run, in_room(5, share));
   EXPECT_TRUE(kept.empty());
   EXPECT_EQ(run.figures().placed, 0);

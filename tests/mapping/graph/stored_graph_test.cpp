@@ -74,7 +74,7 @@ TEST(KeyframeReader, PutsKeyframesWhereTheGraphHasThem) {
   const auto map = make_map(folder, 4);
   StoredGraph graph = graph_of(3);
   graph.keyframes[1].T_map_keyframe = kThere;
-  MapStore(map, 42, ignore).write_moved(graph);
+  MapStore(map, 42, ignore).write_graph(graph);
   KeyframeReader reader(map / kKeyframeFile);
   const auto keyframes = read_all(reader);
   ASSERT_EQ(keyframes.size(), 4U);
@@ -91,7 +91,7 @@ TEST(KeyframeReader, FindsTheOthersInTheGraphWhereAKeyframeIsDamaged) {
   const auto map = make_map(folder, 3);
   StoredGraph graph = graph_of(3);
   graph.keyframes[2].T_map_keyframe = kThere;
-  MapStore(map, 42, ignore).write_moved(graph);
+  MapStore(map, 42, ignore).write_graph(graph);
   std::string bytes = io::read_file(map / kKeyframeFile);
   KeyframeReader whole(map / kKeyframeFile);
   whole.next();
@@ -105,12 +105,13 @@ TEST(KeyframeReader, FindsTheOthersInTheGraphWhereAKeyframeIsDamaged) {
 }
 
 // What `spoil` does to the graph is told, and the keyframes stand where they came.
-void expect_told(const std::string& words, const std::function<void(std::filesystem::path)>& spoil) {
+void expect_told(const std::string& words,
+                 const std::function<void(std::filesystem::path)>& spoil) {
   const test::TemporaryFolder folder;
   const auto map = make_map(folder, 3);
   StoredGraph graph = graph_of(3);
   graph.keyframes[1].T_map_keyframe = kThere;
-  MapStore(map, 42, ignore).write_moved(graph);
+  MapStore(map, 42, ignore).write_graph(graph);
   spoil(map / kGraphFile);
   KeyframeReader reader(map / kKeyframeFile);
   EXPECT_EQ(numbers_of(read_all(reader)), first_numbers(3));
@@ -143,7 +144,7 @@ TEST(MapStore, KeepsAGraphAsideThatIsOfNoUse) {
   const test::TemporaryFolder folder;
   const auto map = make_map(folder, 3);
   replace(map / kGraphFile, "mine");
-  MapStore(map, 42, ignore).write_moved(graph_of(3));
+  MapStore(map, 42, ignore).write_graph(graph_of(3));
   EXPECT_EQ(io::read_file(map / "graph.g2o.damaged"), "mine");
   EXPECT_TRUE(find_graph(map, 42).graph);
 }
@@ -153,7 +154,7 @@ TEST(MapStore, AppendsBehindWhatSaysThatKeyframesWereMoved) {
   const auto map = make_map(folder, 2);
   {
     MapStore store(map, 42, ignore);
-    store.write_moved(graph_of(2));
+    store.write_graph(graph_of(2));
     store.append(keyframe(2));
   }
   MapStore again(map, 42, ignore);

@@ -1,0 +1,85 @@
+#include "voxlist/mapping/loops/session_closing.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "voxlist/geometry/tilt.h"
+#include "voxlist/mapping/graph/pose_graph.h"
+
+namespace voxlist::mapping {
+namespace {
+
+using Order = std::vector<std::size_t>;
+
+// Poses in the file's order, from those in the order of the drive, with the map's first keyframe
+// where it was.
+std::vector<Pose2> in_file(const std::vector<Pose2>& closed, const Order& order,
+                           const Pose2& first) {
+  std::vector<Pose2> poses(closed.size());
+  for (std::size_t i = 0; i < order.size(); ++i) poses[order[i]] = closed[i];
+  const Pose2 back = first * poses.front().inverse();
+  for (Pose2& pose : poses) pose = rounded(back * pose);
+  poses.front() = first;
+  return poses;
+}
+
+std::vector<PoseEdge> in_file(std::vector<PoseEdge> edges, const Order& order) {
+  for (PoseEdge& edge : edges) {
+    edge.from = order[edge.from];
+    edge.to = order[edge.to];
+  }
+  return edges;
+}
+
+void move(const MapKeyframes& keyframes, std::vector<Pose2> poses, SessionClosing& closing) {
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const Pose2& before = keyframes[i].T_map_keyframe;
+    closing.moved_m = std::max(closing.moved_m, distance_m(before, poses[i]));
+    closing.turned_rad = std::max(closing.turned_rad, turn_rad(before, poses[i]));
+  }
+  closing.poses = std::move(poses);
+  closing.moves = true;
+}
+
+}  // namespace
+
+Order order_of_drive(const MapKeyframes& keyframes) {
+  std::vector<int> session(keyframes.size(), 0);
+  for (std::size_t i = 1; i < keyframes.size(); ++i)
+    session[i] = session[i - 1] + int{keyframes[i].begins_session};
+  Order order(keyframes.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return std::pair(session[a], keyframes[a].utime_us) <
+           std::pair(session[b], keyframes[b].utime_us);
+  });
+  return order;
+}
+
+SessionClosing close_sessions(const MapKeyframes& keyframes, const ReadCloud& read,
+                              const matching::MatcherConfig& config) {
+  const Order order = order_of_drive(keyframes);
+  std::vector<Pose2> poses;
+  DriveOdometry odometry;
+  for (const std::size_t i : order) {
+    poses.push_back(keyframes[i].T_map_keyframe);
+    odometry.push_back(keyframes[i].T_odom_keyframe);
+  }
+  const MapClosing closed = close_map(
+      poses, odometry, [&](std::size_t i) { return read(order[i]); }, config);
+  SessionClosing closing;
+  closing.loops = closed.loops;
+  closing.refused = closed.refused;
+  closing.edges = in_file(closed.edges, order);
+  for (const auto& keyframe : keyframes) closing.poses.push_back(keyframe.T_map_keyframe);
+  if (closed.moves)
+    move(keyframes, in_file(closed.poses, order, keyframes.front().T_map_keyframe), closing);
+  return closing;
+}
+
+Cloud level_cloud(const Keyframe& keyframe) {
+  const Tilt tilt = tilt_of(keyframe.T_map_base);
+  return tilt == Tilt{} ? keyframe.cloud : moved(to_level(tilt), keyframe.cloud);
+}
+
+}  // namespace voxlist::mapping

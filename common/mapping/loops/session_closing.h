@@ -1,0 +1,34 @@
+#pragma once
+
+#include "voxlist/mapping/graph/stored_graph.h"
+#include "voxlist/mapping/loops/map_closing.h"
+
+namespace voxlist::mapping {
+
+/// A map's keyframes in the order of their file, as they stand.
+using MapKeyframes = std::vector<StoredGraph::Keyframe>;
+
+/// What closing the loops of a map came to, whose keyframes are of several sessions.
+struct SessionClosing {
+  /// T_map_keyframe of each; as they were where nothing is to be closed.
+  std::vector<Pose2> poses;
+  /// What holds them, as MapClosing has it.
+  std::vector<PoseEdge> edges;
+  std::size_t loops = 0, refused = 0;
+  /// How far the keyframe is moved that is moved farthest (m), and that is turned farthest (rad).
+  double moved_m = 0.0, turned_rad = 0.0;
+  bool moves = false;
+};
+
+/// The order in which they came: session by session, each in the order of time.
+std::vector<std::size_t> order_of_drive(const MapKeyframes& keyframes);
+
+/// Closes the loops of a map, all sessions taken as one drive. The first keyframe stays. `read`
+/// takes a keyframe's place in `keyframes`.
+SessionClosing close_sessions(const MapKeyframes& keyframes, const ReadCloud& read,
+                              const matching::MatcherConfig& config);
+
+/// A keyframe's cloud as a level robot has it: poses are searched for in the plane.
+Cloud level_cloud(const Keyframe& keyframe);
+
+}  // namespace voxlist::mapping

@@ -1,0 +1,68 @@
+#include "services/voxlist/maps/sessions/extended_map.h"
+
+#include <utility>
+
+#include "voxlist/geometry/tilt.h"
+#include "voxlist/io/files/file.h"
+
+namespace voxlist::desk {
+
+ExtendedMap::ExtendedMap(const std::filesystem::path& folder,
+                         const mapping::MapBuilderConfig& config, Console& console)
+    : folder_(folder),
+      config_(config),
+      builder_(config),
+      store_(folder, 0, [this](mapping::Keyframe keyframe) { take(std::move(keyframe)); }),
+      were_there_(poses_.size()) {
+  if (!store_.notice().empty()) console.warn(store_.notice());
+  if (poses_.empty()) throw io::FileError(folder, "holds an empty map, make one with voxlist map");
+  const auto found = mapping::find_graph(folder, store_.map_id());
+  if (found.graph) recall(mapping::GraphPoses(found.graph->keyframes));
+}
+
+void ExtendedMap::take(mapping::Keyframe keyframe) {
+  poses_.push_back({keyframe.cloud.utime_us, keyframe.T_map_base});
+  keyframes_.push_back({keyframe.cloud.utime_us, to_pose2(keyframe.T_map_base)});
+  builder_.add(std::move(keyframe));
+}
+
+// What the graph of the sessions so far knows beside the poses.
+void ExtendedMap::recall(mapping::GraphPoses known) {
+  for (auto& keyframe : keyframes_)
+    if (const auto found = known.next(keyframe.utime_us)) keyframe = *found;
+}
+
+void ExtendedMap::append(const mapping::Keyframe& keyframe,
+                         const std::optional<Pose2>& T_odom_base) {
+  store_.append(keyframe);
+  keyframes_.push_back({keyframe.cloud.utime_us, to_pose2(keyframe.T_map_base), T_odom_base,
+                        keyframes_.size() == were_there_});
+  poses_.push_back({keyframe.cloud.utime_us, keyframe.T_map_base});
+}
+
+mapping::Keyframe ExtendedMap::read(std::size_t keyframe) {
+  auto found = store_.keyframes().read(keyframe);
+  if (!found) throw io::FileError(folder_, "the disk lost keyframes while the map was extended");
+  found->T_map_base = poses_[keyframe].pose;
+  return std::move(*found);
+}
+
+mapping::SessionClosing ExtendedMap::close(const matching::MatcherConfig& config) {
+  mapping::SessionClosing closing = mapping::close_sessions(
+      keyframes_, [&](std::size_t i) { return mapping::level_cloud(read(i)); }, config);
+  for (std::size_t i = 0; closing.moves && i < poses_.size(); ++i) {
+    keyframes_[i].T_map_keyframe = closing.poses[i];
+    poses_[i].pose = to_pose3(closing.poses[i], tilt_of(poses_[i].pose));
+  }
+  store_.write_graph(
+      {store_.map_id(), store_.moves() + int{closing.moves}, keyframes_, closing.edges});
+  return closing;
+}
+
+mapping::MapBuilder ExtendedMap::rebuilt() {
+  mapping::MapBuilder builder(config_);
+  for (std::size_t i = 0; i < poses_.size(); ++i) builder.add(read(i));
+  return builder;
+}
+
+}  // namespace voxlist::desk
