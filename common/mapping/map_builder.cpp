@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "voxlist/geometry/range.h"
-#include "voxlist/voxels/scan_news.h"
 
 namespace voxlist::mapping {
 namespace {
@@ -23,10 +23,41 @@ void remove_near(Cloud& cloud, double min_range_m) {
   if (!cloud.origins.empty()) cloud.origins.resize(kept);
 }
 
+// A keyframe, and where it stands.
+struct Place {
+  std::size_t keyframe;
+  const Pose3* T_map_base;
+};
+
+// Hands out the scans of places, one at a time in memory.
+class Scans {
+ public:
+  Scans(const std::vector<Place>& places, const MapBuilder::ReadCloud& read)
+      : places_(places), read_(read) {}
+
+  std::optional<CarvedMap::Scan> operator()() {
+    if (next_ == places_.size()) return std::nullopt;
+    const Place& place = places_[next_++];
+    cloud_ = read_(place.keyframe);
+    return CarvedMap::Scan{*place.T_map_base, cloud_};
+  }
+
+ private:
+  const std::vector<Place>& places_;
+  const MapBuilder::ReadCloud& read_;
+  std::size_t next_ = 0;
+  Cloud cloud_;
+};
+
+bool is_moved(const Pose3& before, const std::optional<Pose3>& now) {
+  return !now || now->matrix() != before.matrix();
+}
+
 }  // namespace
 
 MapBuilder::MapBuilder(const MapBuilderConfig& config)
-    : config_(config), map_({config.carve, config.min_range_m, config.max_range_m}) {}
+    : config_(config),
+      map_({config.carve, config.min_range_m, config.max_range_m, config.count_free}) {}
 
 bool MapBuilder::has_moved(const Pose2& pose) const {
   return distance_m(pose, looked_at_) >= config_.min_distance_m ||
@@ -43,7 +74,7 @@ bool MapBuilder::wants(const Cloud& cloud, const Pose2& pose, const Tilt& tilt) 
 // How much of a scan is news: the share of cells that it hits or passes and the map does not
 // know, or that of what it sees to be gone in what it hits, whichever is larger.
 double MapBuilder::news_of(const CarvedMap::Scan& scan) {
-  const ScanNews news = scan_news(scan.cloud, scan.T_map_base, config_.max_range_m, map());
+  const ScanNews news = map_.news_of(scan);
   const double doubted = static_cast<double>(map_.count_doubted(scan));
   return std::max(news.share(), doubted / static_cast<double>(std::max<std::size_t>(news.hit, 1)));
 }
@@ -51,13 +82,46 @@ double MapBuilder::news_of(const CarvedMap::Scan& scan) {
 void MapBuilder::clear() {
   map_.clear();
   poses_.clear();
-  changed_blocks_ = {};
+  changed_blocks_ = changed_free_space_ = {};
   looked_at_ = {};
 }
 
+void MapBuilder::move(const std::vector<std::optional<Pose3>>& poses, const ReadCloud& read) {
+  std::size_t moved = 0;
+  for (std::size_t i = 0; i < poses_.size(); ++i) moved += is_moved(poses_[i].pose, poses[i]);
+  if (moved == 0) return;
+  2 * moved < poses_.size() ? recount(poses, read) : make_anew(poses, read);
+  changed_free_space_ = map_.free_space().follow();
+  std::vector<StampedPose3> there;
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    if (poses[i]) there.push_back({poses_[i].utime_us, *poses[i]});
+  poses_ = std::move(there);
+  if (!poses_.empty()) looked_at_ = to_pose2(poses_.back().pose);
+}
+
+void MapBuilder::make_anew(const std::vector<std::optional<Pose3>>& poses, const ReadCloud& read) {
+  map_.clear();
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    if (poses[i]) changed_blocks_ = map_.add({*poses[i], read(i)});
+}
+
+void MapBuilder::recount(const std::vector<std::optional<Pose3>>& poses, const ReadCloud& read) {
+  std::vector<Place> touched, all;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const Pose3* const now = poses[i] ? &*poses[i] : nullptr;
+    if (now) all.push_back({i, now});
+    if (!is_moved(poses_[i].pose, poses[i])) continue;
+    touched.push_back({i, &poses_[i].pose});
+    if (now) touched.push_back({i, now});
+  }
+  changed_blocks_ = map_.recount(Scans(touched, read), Scans(all, read));
+}
+
 Keyframe MapBuilder::add(Keyframe keyframe) {
-  remove_near(keyframe.cloud, config_.min_range_m);
+  // As wants() has seen it: then its rays are not followed again.
   changed_blocks_ = map_.add({keyframe.T_map_base, keyframe.cloud});
+  changed_free_space_ = map_.free_space().follow();
+  remove_near(keyframe.cloud, config_.min_range_m);
   looked_at_ = to_pose2(keyframe.T_map_base);
   poses_.push_back({keyframe.cloud.utime_us, keyframe.T_map_base});
   return keyframe;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <vector>
 
 #include "voxlist/geometry/cloud.h"
@@ -33,6 +35,9 @@ struct MapBuilderConfig {
   /// (CarvedMap). It costs about 3 ms a keyframe, and some of what is thin: up to a tenth of table
   /// tops and poles (tests/bench). False: what was hit once stays for good.
   bool carve = false;
+  /// Whether free space is counted beside the map, for planners (FreeSpace). No setting: it is for
+  /// who sends it on.
+  bool count_free = false;
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -64,6 +69,15 @@ class MapBuilder {
   /// min_range_m. Returns it as it is in the map, for whoever keeps it: here only its pose is.
   Keyframe add(Keyframe keyframe);
 
+  /// Hands out the cloud of a keyframe, as add() returned it, by its number.
+  using ReadCloud = std::function<Cloud(std::size_t)>;
+
+  /// Moves keyframes, or takes them out. `poses`: where each of those in the map belongs now;
+  /// nothing: it is taken out. The map then has the same bits as one made anew of them in their
+  /// order. Where fewer than half of them move, only what these see is made again, from all that
+  /// reach it.
+  void move(const std::vector<std::optional<Pose3>>& poses, const ReadCloud& read);
+
   /// Begins an empty map.
   void clear();
 
@@ -72,17 +86,26 @@ class MapBuilder {
   /// When and where each keyframe was taken, in their order.
   const std::vector<StampedPose3>& poses() const { return poses_; }
 
-  /// What the last add() changed.
+  /// What the last add() or move() changed. Where move() made all anew, the revisions tell that
+  /// more has changed than the blocks do.
   const ChangedBlocks& changed_blocks() const { return changed_blocks_; }
+
+  /// Free and occupied cells as counted; empty unless count_free.
+  const OccupancyMap& free_space() const { return map_.free_space().map(); }
+
+  /// What the last add() or move() changed there.
+  const ChangedBlocks& changed_free_space() const { return changed_free_space_; }
 
  private:
   bool has_moved(const Pose2& pose) const;
   double news_of(const CarvedMap::Scan& scan);
+  void make_anew(const std::vector<std::optional<Pose3>>& poses, const ReadCloud& read);
+  void recount(const std::vector<std::optional<Pose3>>& poses, const ReadCloud& read);
 
   const MapBuilderConfig config_;
   CarvedMap map_;
   std::vector<StampedPose3> poses_;
-  ChangedBlocks changed_blocks_;
+  ChangedBlocks changed_blocks_, changed_free_space_;
   Pose2 looked_at_;  // where the last cloud was added or looked at
 };
 

@@ -12,6 +12,11 @@ std::vector<Voxel> ScanHits::put_into(VoxelMap& map) const {
   return changed;
 }
 
+void ScanHits::clear() {
+  positions_.clear();
+  blocks_.clear();
+}
+
 void ScanHits::go_to(const Voxel& block) {
   last_ = positions_.number(block);
   if (last_ == blocks_.size()) blocks_.emplace_back();

@@ -21,6 +21,15 @@ class ScanHits {
   /// Puts the voxels into a map; the positions of the blocks that this changed, ascending.
   std::vector<Voxel> put_into(VoxelMap& map) const;
 
+  /// Calls visit(block position, bits) for each block, in the order in which they were met.
+  template <class Visit>
+  void for_each_block(const Visit& visit) const {
+    for (std::size_t i = 0; i < blocks_.size(); ++i) visit(positions_.key(i), blocks_[i]);
+  }
+
+  /// No voxels are left.
+  void clear();
+
  private:
   void go_to(const Voxel& block);
 

@@ -37,25 +37,35 @@ bool has_hit(const Voxel& cell, std::int32_t edge, const VoxelMap& occupied) {
   return (layer & face) != 0;
 }
 
-void count_passes(ScanCells& cells, const VoxelMap& passed, ScanNews& news) {
+void count_passes(const Voxel& position, const VoxelBlock& bits, const VoxelMap& passed,
+                  ScanNews& news) {
+  const VoxelBlock* known = passed.find_block(position);
+  for (std::size_t z = 0; z < bits.size(); ++z) {
+    news.passed += static_cast<std::size_t>(std::popcount(bits[z]));
+    news.newly_passed +=
+        static_cast<std::size_t>(std::popcount(bits[z] & ~(known ? (*known)[z] : 0)));
+  }
+}
+
+void count_hits(const Voxel& position, const VoxelBlock& bits, const OccupancyMap& map,
+                ScanNews& news) {
+  const std::int32_t edge = edge_of_cell(map);
+  VoxelMap::visit_block(position, bits, [&](const Voxel& cell) {
+    ++news.hit;
+    if (!has_hit(cell, edge, map.occupied)) ++news.newly_hit;
+  });
+}
+
+void count_passes(ScanCells& cells, const OccupancyMap& map, ScanNews& news) {
   cells.for_each_block([&](const Voxel& position, const VoxelBlock& bits) {
-    const VoxelBlock* known = passed.find_block(position);
-    for (std::size_t z = 0; z < bits.size(); ++z) {
-      news.passed += static_cast<std::size_t>(std::popcount(bits[z]));
-      news.newly_passed +=
-          static_cast<std::size_t>(std::popcount(bits[z] & ~(known ? (*known)[z] : 0)));
-    }
+    count_passes(position, bits, map.passed, news);
   });
   cells.clear();
 }
 
 void count_hits(ScanCells& cells, const OccupancyMap& map, ScanNews& news) {
-  const std::int32_t edge = edge_of_cell(map);
   cells.for_each_block([&](const Voxel& position, const VoxelBlock& bits) {
-    VoxelMap::visit_block(position, bits, [&](const Voxel& cell) {
-      ++news.hit;
-      if (!has_hit(cell, edge, map.occupied)) ++news.newly_hit;
-    });
+    count_hits(position, bits, map, news);
   });
   cells.clear();
 }
@@ -64,6 +74,12 @@ void count_hits(ScanCells& cells, const OccupancyMap& map, ScanNews& news) {
 
 double ScanNews::share() const {
   return std::max(share_of(newly_hit, hit), share_of(newly_passed, passed));
+}
+
+void add_news(const Voxel& block, const VoxelBlock& hit, const VoxelBlock& passed,
+              const OccupancyMap& map, ScanNews& news) {
+  count_hits(block, hit, map, news);
+  count_passes(block, passed, map.passed, news);
 }
 
 ScanNews scan_news(const Cloud& cloud_base, const Pose3& T_map_base, double max_range_m,
@@ -76,10 +92,10 @@ ScanNews scan_news(const Cloud& cloud_base, const Pose3& T_map_base, double max_
                hit.mark(voxel_at(point, resolution_m));
                mark_passed(origin, point, resolution_m, passed);
                if (hit.memory_bytes() > kMaxScanBytes) count_hits(hit, map, news);
-               if (passed.memory_bytes() > kMaxScanBytes) count_passes(passed, map.passed, news);
+               if (passed.memory_bytes() > kMaxScanBytes) count_passes(passed, map, news);
              });
   count_hits(hit, map, news);
-  count_passes(passed, map.passed, news);
+  count_passes(passed, map, news);
   return news;
 }
 

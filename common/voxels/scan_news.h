@@ -20,6 +20,10 @@ struct ScanNews {
   double share() const;
 };
 
+/// Adds what the hit and passed cells of one block of a scan tell. Precondition as scan_news().
+void add_news(const Voxel& block, const VoxelBlock& hit, const VoxelBlock& passed,
+              const OccupancyMap& map, ScanNews& news);
+
 /// Precondition: an edge of `passed` is 1, 2, 4 or 8 edges of `occupied`. Costs about what add_scan
 /// does.
 ScanNews scan_news(const Cloud& cloud_base, const Pose3& T_map_base, double max_range_m,

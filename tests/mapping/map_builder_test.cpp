@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace voxlist::mapping {
 namespace {
 
@@ -67,6 +69,84 @@ TEST(MapBuilder, TakesPointsAtNoRangeForNoPoints) {
   keyframe = builder.add(keyframe);
   EXPECT_EQ(keyframe.cloud.points, (std::vector<Eigen::Vector3f>{{3, 0, 0}}));
   EXPECT_EQ(keyframe.cloud.origins.size(), 1u);
+}
+
+// Rays of a room, from many places in it.
+std::vector<Keyframe> drive() {
+  std::vector<Keyframe> keyframes;
+  for (int i = 0; i < 12; ++i) {
+    Keyframe keyframe = keyframe_at({1.3 * i, 0.3, 0.1 * i}, {});
+    keyframe.cloud.utime_us = 1000 + i;
+    for (int k = 0; k < 500; ++k) {
+      const float angle = 0.37F * float(k), z = 0.004F * float(k % 300 - 100);
+      keyframe.cloud.points.emplace_back(3.0F * std::cos(angle), 2.0F * std::sin(angle), z);
+    }
+    keyframes.push_back(keyframe);
+  }
+  return keyframes;
+}
+
+MapBuilder made_of(const std::vector<Keyframe>& keyframes) {
+  MapBuilder builder({.carve = true, .count_free = true});
+  for (const Keyframe& keyframe : keyframes) builder.add(keyframe);
+  return builder;
+}
+
+void expect_same(const MapBuilder& a, const MapBuilder& b) {
+  EXPECT_EQ(a.map().occupied.hash(), b.map().occupied.hash());
+  EXPECT_EQ(a.map().passed.hash(), b.map().passed.hash());
+  EXPECT_EQ(a.free_space().occupied.hash(), b.free_space().occupied.hash());
+  EXPECT_EQ(a.free_space().passed.hash(), b.free_space().passed.hash());
+  ASSERT_EQ(a.poses().size(), b.poses().size());
+  for (std::size_t i = 0; i < a.poses().size(); ++i) {
+    EXPECT_EQ(a.poses()[i].utime_us, b.poses()[i].utime_us);
+    EXPECT_EQ(a.poses()[i].pose.matrix(), b.poses()[i].pose.matrix());
+  }
+}
+
+// Few are moved in their places, most are made anew.
+TEST(MapBuilder, IsAsIfKeyframesHadAlwaysBeenWhereTheyAreMovedTo) {
+  for (const std::size_t first : {11u, 9u, 1u}) {
+    std::vector<Keyframe> keyframes = drive();
+    MapBuilder builder = made_of(keyframes);
+    std::vector<std::optional<Pose3>> poses;
+    for (std::size_t i = 0; i < keyframes.size(); ++i) {
+      if (i >= first) keyframes[i].T_map_base = to_pose3({1.2 * double(i), 1.0, 0.5});
+      poses.emplace_back(keyframes[i].T_map_base);
+    }
+    const std::uint64_t before = builder.map().occupied.hash();
+    std::size_t read = 0;
+    builder.move(poses, [&](std::size_t i) {
+      ++read;
+      return keyframes[i].cloud;
+    });
+    EXPECT_NE(builder.map().occupied.hash(), before);
+    EXPECT_GE(read, keyframes.size());
+    expect_same(builder, made_of(keyframes));
+  }
+}
+
+TEST(MapBuilder, IsAsIfAKeyframeHadNeverBeenInOnceItIsTakenOut) {
+  std::vector<Keyframe> keyframes = drive();
+  MapBuilder builder = made_of(keyframes);
+  std::vector<std::optional<Pose3>> poses;
+  for (const Keyframe& keyframe : keyframes) poses.emplace_back(keyframe.T_map_base);
+  poses[4].reset();
+  builder.move(poses, [&](std::size_t i) { return keyframes[i].cloud; });
+  keyframes.erase(keyframes.begin() + 4);
+  expect_same(builder, made_of(keyframes));
+}
+
+TEST(MapBuilder, ReadsNothingWhereNothingMoves) {
+  const std::vector<Keyframe> keyframes = drive();
+  MapBuilder builder = made_of(keyframes);
+  std::vector<std::optional<Pose3>> poses;
+  for (const Keyframe& keyframe : keyframes) poses.emplace_back(keyframe.T_map_base);
+  builder.move(poses, [](std::size_t) -> Cloud {
+    ADD_FAILURE();
+    return {};
+  });
+  expect_same(builder, made_of(keyframes));
 }
 
 TEST(MapBuilder, NamesTheBlocksThatAKeyframeChanged) {

@@ -1,9 +1,11 @@
 #include "voxlist/voxels/voids/carved_map.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
-#include "voxlist/voxels/scan_rays.h"
+#include "voxlist/geometry/range.h"
 
 namespace voxlist {
 namespace {
@@ -52,14 +54,37 @@ void empty(const Numbering<Voxel>& cubes, CounterMap& counters) {
   counters.forget(inside);
 }
 
+// The box (m) of some cubes.
+Eigen::AlignedBox3d box_of(const Numbering<Voxel>& cubes) {
+  Eigen::AlignedBox3d box;
+  for (const Voxel& at : cubes.keys()) {
+    const Eigen::Vector3d low = kCube_m * Eigen::Vector3d(at.x, at.y, at.z);
+    box.extend(low);
+    box.extend(Eigen::Vector3d(low + Eigen::Vector3d::Constant(kCube_m)));
+  }
+  return box;
+}
+
+// Whether a scan's rays may get into a box: its farthest point, or start of a ray, is as far.
+bool reaches(const CarvedMap::Scan& scan, const Eigen::AlignedBox3d& box) {
+  float farthest2 = 0.0F;
+  for (const auto& p : scan.cloud.points) farthest2 = std::max(farthest2, p.squaredNorm());
+  for (const auto& p : scan.cloud.origins) farthest2 = std::max(farthest2, p.squaredNorm());
+  // A cell is as much as rounding may be off.
+  return !box.isEmpty() && box.exteriorDistance(Eigen::Vector3d(scan.T_map_base.translation())) <=
+                               std::sqrt(double{farthest2}) + kPassedResolution_m;
+}
+
 }  // namespace
 
 CarvedMap::CarvedMap(const CarvingConfig& config)
-    : config_(config), waiting_(map_.occupied.resolution_m()) {
+    : config_(config),
+      waiting_(map_.occupied.resolution_m()),
+      marks_(config.min_range_m, config.max_range_m) {
   if (!config.carve) return;
   for (const VoidRule& rule : kVoidRules) {
     voids_.emplace_back(rule.cell_m, map_.occupied.resolution_m());
-    scans_.emplace_back(rule, config.min_range_m, config.max_range_m);
+    scans_.emplace_back(rule);
   }
 }
 
@@ -76,27 +101,39 @@ ChangedBlocks CarvedMap::add(const Scan& scan) {
 void CarvedMap::clear() {
   map_ = {};
   waiting_ = VoxelMap(map_.occupied.resolution_m());
+  free_ = {};
   for (std::size_t i = 0; i < voids_.size(); ++i)
     voids_[i] = VoidCells(kVoidRules[i].cell_m, map_.occupied.resolution_m());
 }
 
-ChangedBlocks CarvedMap::recount(const std::vector<Scan>& touched,
-                                 const std::function<std::optional<Scan>()>& all) {
+ChangedBlocks CarvedMap::recount(const Scans& touched, const Scans& all) {
   ChangedBlocks changed;
   changed.from = map_.revision();
   Cubes cubes;
-  for (const Scan& scan : touched) list_cubes(scan, cubes);
+  while (const std::optional<Scan> scan = touched()) list_cubes(*scan, cubes);
   forget(cubes, changed);
-  while (const std::optional<Scan> scan = all()) add(*scan, &cubes, changed);
+  const Eigen::AlignedBox3d box = box_of(cubes);
+  while (const std::optional<Scan> scan = all())
+    if (reaches(*scan, box)) add(*scan, &cubes, changed);
   sort_once(changed.occupied);
   sort_once(changed.passed);
   changed.to = map_.revision();
   return changed;
 }
 
+ScanNews CarvedMap::news_of(const Scan& scan) {
+  marks_.mark(scan.T_map_base, scan.cloud);
+  ScanNews news;
+  for (const MarkedScan::Block& block : marks_.blocks())
+    add_news(block.at, in_rows(CellStore::Block(block.hit)),
+             in_rows(CellStore::Block(block.passed)), map_, news);
+  return news;
+}
+
 std::size_t CarvedMap::count_doubted(const Scan& scan) {
   if (scans_.empty()) return 0;
-  scans_.back().mark(scan.T_map_base, scan.cloud);
+  marks_.mark(scan.T_map_base, scan.cloud);
+  scans_.back().take(marks_);
   std::size_t count = 0;
   for (const VoidScan::Block& seen : scans_.back().blocks())
     for (const std::uint64_t word : voids_.back().doubted(seen))
@@ -107,14 +144,16 @@ std::size_t CarvedMap::count_doubted(const Scan& scan) {
 void CarvedMap::add(const Scan& scan, const Cubes* only, ChangedBlocks& changed) {
   touched_.clear();
   parts_.clear();
-  mark_voids(scan);
+  mark(scan);
   carve(only);
-  walk_rays(scan, only, changed.passed);
+  put_cells(only, changed.passed);
+  put_hits(scan);
   update_blocks(only, changed.occupied);
 }
 
-void CarvedMap::mark_voids(const Scan& scan) {
-  for (VoidScan& voids : scans_) voids.mark(scan.T_map_base, scan.cloud);
+void CarvedMap::mark(const Scan& scan) {
+  marks_.mark(scan.T_map_base, scan.cloud);
+  for (VoidScan& voids : scans_) voids.take(marks_);
 }
 
 void CarvedMap::carve(const Cubes* only) {
@@ -132,25 +171,34 @@ void CarvedMap::carve(const Cubes* only) {
   }
 }
 
-void CarvedMap::walk_rays(const Scan& scan, const Cubes* only, std::vector<Voxel>& changed) {
+void CarvedMap::put_cells(const Cubes* only, std::vector<Voxel>& changed) {
+  for (const MarkedScan::Block& block : marks_.blocks()) {
+    if (!is_in(only, block.at, kPassedResolution_m)) continue;
+    if (config_.count_free) free_.count(block);
+    if (block.passed != BlockBits{} &&
+        map_.passed.merge_block(block.at, in_rows(CellStore::Block(block.passed))))
+      changed.push_back(block.at);
+  }
+}
+
+// Calls visit(voxel) for each point that counts.
+template <class Visit>
+void CarvedMap::visit_hits(const Scan& scan, const Visit& visit) const {
   const double resolution_m = map_.occupied.resolution_m();
-  const double passed_m = map_.passed.resolution_m();
-  ScanCells passed;
-  const auto put_passed = [&] {
-    passed.for_each_block([&](const Voxel& at, const VoxelBlock& bits) {
-      if (is_in(only, at, passed_m) && map_.passed.merge_block(at, bits)) changed.push_back(at);
-    });
-    passed.clear();
-  };
-  visit_rays(scan.cloud, scan.T_map_base, config_.max_range_m, resolution_m,
-             [&](const Eigen::Vector3d& origin, const Eigen::Vector3d& point) {
-               const Voxel v = voxel_at(point, resolution_m);
-               part_at(block_of(v)).hit[static_cast<std::size_t>(v.z & 7)] |=
-                   std::uint64_t{1} << ((v.x & 7) + 8 * (v.y & 7));
-               mark_passed(origin, point, passed_m, passed);
-               if (passed.memory_bytes() > kMaxScanBytes) put_passed();
-             });
-  put_passed();
+  for (std::size_t i = 0; i < scan.cloud.points.size(); ++i) {
+    if (!is_within(scan.cloud, i, config_.min_range_m, config_.max_range_m)) continue;
+    const Eigen::Vector3d point = scan.T_map_base * scan.cloud.points[i].cast<double>();
+    const Eigen::Vector3d origin = scan.T_map_base * scan.cloud.origin(i).cast<double>();
+    if (in_lattice(point, resolution_m) && in_lattice(origin, resolution_m))
+      visit(voxel_at(point, resolution_m));
+  }
+}
+
+void CarvedMap::put_hits(const Scan& scan) {
+  visit_hits(scan, [&](const Voxel& v) {
+    part_at(block_of(v)).hit[static_cast<std::size_t>(v.z & 7)] |= std::uint64_t{1}
+                                                                   << ((v.x & 7) + 8 * (v.y & 7));
+  });
 }
 
 void CarvedMap::update_blocks(const Cubes* only, std::vector<Voxel>& changed) {
@@ -180,19 +228,11 @@ CarvedMap::Part& CarvedMap::part_at(const Voxel& block) {
 }
 
 void CarvedMap::list_cubes(const Scan& scan, Cubes& cubes) {
-  mark_voids(scan);
-  for (std::size_t i = 0; i < scans_.size(); ++i)
-    for (const VoidScan::Block& seen : scans_[i].blocks())
-      cubes.number(cube_of(seen.at, kVoidRules[i].cell_m));
-  const double passed_m = map_.passed.resolution_m(), voxel_m = map_.occupied.resolution_m();
-  ScanCells passed;
-  visit_rays(scan.cloud, scan.T_map_base, config_.max_range_m, voxel_m,
-             [&](const Eigen::Vector3d& origin, const Eigen::Vector3d& point) {
-               cubes.number(cube_of(block_of(voxel_at(point, voxel_m)), voxel_m));
-               mark_passed(origin, point, passed_m, passed);
-             });
-  passed.for_each_block(
-      [&](const Voxel& at, const VoxelBlock&) { cubes.number(cube_of(at, passed_m)); });
+  marks_.mark(scan.T_map_base, scan.cloud);
+  for (const MarkedScan::Block& block : marks_.blocks())
+    cubes.number(cube_of(block.at, kPassedResolution_m));
+  const double voxel_m = map_.occupied.resolution_m();
+  visit_hits(scan, [&](const Voxel& v) { cubes.number(cube_of(block_of(v), voxel_m)); });
 }
 
 void CarvedMap::forget(const Cubes& cubes, ChangedBlocks& changed) {
@@ -201,6 +241,7 @@ void CarvedMap::forget(const Cubes& cubes, ChangedBlocks& changed) {
   empty(cubes, map_.passed, changed.passed);
   empty(cubes, waiting_, waited);
   for (VoidCells& cells : voids_) empty(cubes, cells.counters());
+  empty(cubes, free_.counters());
 }
 
 }  // namespace voxlist

@@ -6,6 +6,9 @@
 #include <vector>
 
 #include "voxlist/voxels/occupancy_map.h"
+#include "voxlist/voxels/scan_news.h"
+#include "voxlist/voxels/voids/free_space.h"
+#include "voxlist/voxels/voids/marked_scan.h"
 #include "voxlist/voxels/voids/void_cells.h"
 
 namespace voxlist {
@@ -20,6 +23,8 @@ struct CarvingConfig {
   bool carve = true;
   double min_range_m = 0.05;
   double max_range_m = 100.0;
+  /// Whether free space is counted as well (FreeSpace): it takes about a byte a cell of 0.08 m.
+  bool count_free = false;
 };
 
 /// A map without what has gone: people who walked through, furniture that was moved. A voxel that
@@ -36,19 +41,24 @@ class CarvedMap {
     const Cloud& cloud;
   };
 
-  /// Adds a scan. Points are left out as by add_scan(). What its voids took from the map is among
-  /// what changed.
+  /// Hands out scans one by one, then nothing. What it has handed out is there until it is asked
+  /// for the next.
+  using Scans = std::function<std::optional<Scan>()>;
+
+  /// Adds a scan. Points that are not within the ranges are left out, rays and all. What its voids
+  /// took from the map is among what changed.
   ChangedBlocks add(const Scan& scan);
 
   /// Begins an empty map.
   void clear();
 
   /// Takes scans out, or moves them. `touched`: each of them where it was, and where it is now, if
-  /// it is in. `all`: hands out the scans that are in now, in their order, then nothing. Only what
-  /// the touched ones see is made again, from all scans; the map has then the same bits as one made
-  /// anew.
-  ChangedBlocks recount(const std::vector<Scan>& touched,
-                        const std::function<std::optional<Scan>()>& all);
+  /// it is in. `all`: the scans that are in now, in their order. Only what the touched ones see is
+  /// made again, from all scans that reach it; the map has then the same bits as one made anew.
+  ChangedBlocks recount(const Scans& touched, const Scans& all);
+
+  /// What adding a scan would tell.
+  ScanNews news_of(const Scan& scan);
 
   /// Cells of the finer rule that hold something of the map, and that a scan sees to be void: what
   /// adding it may take away.
@@ -59,6 +69,10 @@ class CarvedMap {
   /// What was hit in void space and is not in the map, or not yet.
   const VoxelMap& waiting() const { return waiting_; }
 
+  /// Where it is counted; empty otherwise.
+  FreeSpace& free_space() { return free_; }
+  const FreeSpace& free_space() const { return free_; }
+
  private:
   // What a scan does to a block of the map's voxels.
   struct Part {
@@ -68,18 +82,23 @@ class CarvedMap {
   using Cubes = Numbering<Voxel>;
 
   void add(const Scan& scan, const Cubes* only, ChangedBlocks& changed);
-  void mark_voids(const Scan& scan);
+  void mark(const Scan& scan);
   void carve(const Cubes* only);
-  void walk_rays(const Scan& scan, const Cubes* only, std::vector<Voxel>& changed);
+  void put_cells(const Cubes* only, std::vector<Voxel>& changed);
+  void put_hits(const Scan& scan);
   void update_blocks(const Cubes* only, std::vector<Voxel>& changed);
   bool update(const Voxel& block, const Part& part);
   Part& part_at(const Voxel& block);
+  template <class Visit>
+  void visit_hits(const Scan& scan, const Visit& visit) const;
   void list_cubes(const Scan& scan, Cubes& cubes);
   void forget(const Cubes& cubes, ChangedBlocks& changed);
 
   CarvingConfig config_;
   OccupancyMap map_;
   VoxelMap waiting_;
+  FreeSpace free_;
+  MarkedScan marks_;              // of the scan at hand
   std::vector<VoidCells> voids_;  // of each rule
   std::vector<VoidScan> scans_;   // the scan at hand, by each rule
   // Blocks that it may change.

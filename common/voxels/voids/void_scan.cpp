@@ -1,23 +1,15 @@
 #include "voxlist/voxels/voids/void_scan.h"
 
-#include <algorithm>
+#include <utility>
+
+#include "voxlist/system/check.h"
 
 namespace voxlist {
 namespace {
 
-RayRules rules_of(const VoidRule& rule, double min_range_m, double max_range_m) {
-  RayRules rules;
-  rules.resolution_m = rule.cell_m;
-  rules.min_range_m = min_range_m;
-  rules.max_range_m = max_range_m;
-  rules.end_gap_m = kVoidGap_m;
-  return rules;
-}
-
-VoxelBlock free_cells(CellStore::Block passed, CellStore::Block hit) {
-  BlockBits free;
-  for (std::size_t i = 0; i < free.size(); ++i) free[i] = passed[i] & ~hit[i];
-  return in_rows(free);
+BlockBits without(BlockBits cells, const BlockBits& others) {
+  for (std::size_t i = 0; i < cells.size(); ++i) cells[i] &= ~others[i];
+  return cells;
 }
 
 VoxelBlock both(VoxelBlock a, const VoxelBlock& b) {
@@ -25,22 +17,65 @@ VoxelBlock both(VoxelBlock a, const VoxelBlock& b) {
   return a;
 }
 
+// The 2 x 2 x 2 cells of twice the edge of a word of 4 x 4 x 4, as those with x, y and z below 2 in
+// such a word.
+std::uint64_t halved_word(std::uint64_t word) {
+  word |= word >> 1;   // of two along x
+  word |= word >> 4;   // along y
+  word |= word >> 16;  // along z
+  word = (word & 0x10100000101) | (word & 0x40400000404) >> 1;
+  word = (word & 0x300000003) | (word & 0x30000000300) >> 4;
+  return (word & 0x33) | (word & 0x3300000000) >> 16;
+}
+
 }  // namespace
 
-VoidScan::VoidScan(const VoidRule& rule, double min_range_m, double max_range_m)
-    : rule_(rule), scratch_(rules_of(rule, min_range_m, max_range_m)) {}
+std::uint64_t halved(const BlockBits& cells) {
+  std::uint64_t word = 0;
+  for (unsigned i = 0; i < cells.size(); ++i)
+    word |= halved_word(cells[i]) << (2 * (i & 1) + 4 * (i & 2) + 8 * (i & 4));
+  return word;
+}
 
-void VoidScan::mark(const Pose3& T_map_base, const Cloud& cloud_base) {
-  scratch_.mark(T_map_base, cloud_base);
+void VoidScan::take(const MarkedScan& scan) {
+  if (std::exchange(scan_, scan.number()) == scan.number()) return;
   positions_.clear();
   blocks_.clear();
-  free_.clear();
-  scratch_.for_each_block([&](const Voxel& at, CellStore::Block passed, CellStore::Block hit) {
-    positions_.number(at);
+  passed_.clear();
+  const bool is_twice = rule_.cell_m == 2.0 * scan.cell_m();
+  VOXLIST_CHECK(is_twice || rule_.cell_m == scan.cell_m(), "cells are those of marks, or twice");
+  for (const MarkedScan::Block& block : scan.blocks())
+    is_twice ? take_halved(block) : take_block(block);
+  find_voids();
+}
+
+void VoidScan::take_block(const MarkedScan::Block& block) {
+  const std::uint32_t number = number_at(block.at);
+  blocks_[number].hit = block.hit;
+  passed_[number] = block.early;
+}
+
+void VoidScan::take_halved(const MarkedScan::Block& block) {
+  const Voxel& at = block.at;
+  const std::uint32_t number = number_at({at.x >> 1, at.y >> 1, at.z >> 1});
+  const auto word = static_cast<std::size_t>((at.x & 1) | (at.y & 1) << 1 | (at.z & 1) << 2);
+  blocks_[number].hit[word] = halved(block.hit);
+  passed_[number][word] = halved(block.early);
+}
+
+std::uint32_t VoidScan::number_at(const Voxel& at) {
+  const std::uint32_t number = positions_.number(at);
+  if (number == blocks_.size()) {
     blocks_.push_back({at});
-    std::copy(hit.begin(), hit.end(), blocks_.back().hit.begin());
-    free_.push_back(free_cells(passed, hit));
-  });
+    passed_.emplace_back();
+  }
+  return number;
+}
+
+void VoidScan::find_voids() {
+  free_.clear();
+  for (std::size_t i = 0; i < blocks_.size(); ++i)
+    free_.push_back(in_rows(CellStore::Block(without(passed_[i], blocks_[i].hit))));
   for (std::size_t i = 0; i < blocks_.size(); ++i) {
     if (free_[i] == VoxelBlock{}) continue;
     const VoxelBlock wide = with_marked_around(around(blocks_[i].at), rule_.fewest_free);

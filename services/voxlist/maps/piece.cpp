@@ -1,5 +1,6 @@
 #include "services/voxlist/maps/piece.h"
 
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -30,12 +31,13 @@ void Piece::add(Cloud cloud, const Pose3& T_piece_base) {
 
 void Piece::move_keyframes(const std::vector<Pose2>& T_piece_base) {
   const std::vector<StampedPose3> before = builder_.poses();
-  builder_.clear();
+  std::vector<std::optional<Pose3>> poses;
   for (std::size_t i = 0; i < keyframes_.size(); ++i) {
     Pose3& pose = keyframes_[i].T_map_base;
     pose = to_pose3(T_piece_base[i], tilt_of(pose));
-    builder_.add(spool_.read(keyframes_[i]));
+    poses.emplace_back(pose);
   }
+  builder_.move(poses, [this](std::size_t i) { return spool_.read(keyframes_[i]).cloud; });
   const auto carry = [&](Begin begin, Begin end) {
     carry_scans(std::span(trajectory_).subspan(begin.scan, end.scan - begin.scan),
                 std::span(before).subspan(begin.keyframe, end.keyframe - begin.keyframe),

@@ -54,7 +54,7 @@ class Piece {
   /// So many keyframes are of the session before; 0 where there is but one.
   std::size_t first_session() const { return second_session_.keyframe; }
 
-  /// Makes the map anew with its keyframes at these poses, in their order; other scans keep their
+  /// Makes the map that of its keyframes at these poses, in their order; other scans keep their
   /// place beside the keyframe of their session that was taken next before or after them.
   void move_keyframes(const std::vector<Pose2>& T_piece_base);
 

@@ -152,10 +152,12 @@ void by_balance(const Scene& scene, Result& result) {
 
 // All 27 cells about a cell are free in one scan: it is void for good.
 void by_dufomap(const Scene& scene, Result& result) {
-  VoidScan scan({kDufomap_m, 27}, RayRules().min_range_m, RayRules().max_range_m);
+  MarkedScan marks(RayRules().min_range_m, RayRules().max_range_m, kDufomap_m);
+  VoidScan scan({kDufomap_m, 27});
   VoxelMap is_void(kDufomap_m);
   const auto add = [&](const Cloud& cloud, const Pose3& pose) {
-    scan.mark(pose, cloud);
+    marks.mark(pose, cloud);
+    scan.take(marks);
     for (const VoidScan::Block& block : scan.blocks())
       is_void.merge_block(block.at, in_rows(CellStore::Block(block.is_void)));
   };

@@ -141,7 +141,7 @@ TEST(CounterMap, TakesAtMostSixTenthsOfAByteForEachCellOfItsBlocks) {
             0.6 * 512.0 * static_cast<double>(map.block_count()));
 }
 
-TEST(CounterMap, SaysWhichBlocksWereCountedInSinceItWasAsked) {
+TEST(CounterMap, SaysWhichBlocksChangedSinceItWasAsked) {
   const std::vector<Scan> all = scans(2, 50, 3.0);
   RayScratch scratch(rules());
   CounterMap map(kResolution_m);
@@ -154,6 +154,10 @@ TEST(CounterMap, SaysWhichBlocksWereCountedInSinceItWasAsked) {
   std::size_t blocks = 0;
   scratch.for_each_block([&](const Voxel&, CellStore::Block, CellStore::Block) { ++blocks; });
   EXPECT_EQ(map.take_changed().size(), blocks);
+  for (int i = 0; i < 10; ++i) map.add(scratch);
+  EXPECT_EQ(map.take_changed().size(), blocks);
+  map.add(scratch);
+  EXPECT_TRUE(map.take_changed().empty()) << "all counters are at an end of their range";
 }
 
 TEST(RayScratch, KeepsEveryEndAndFollowsAllRaysEquallyFarWhereTheyPassTooMuch) {

@@ -131,6 +131,15 @@ TEST(CarvedMap, KeepsThinThings) {
   }
 }
 
+// The voxels that are in one map alone.
+std::size_t difference(const VoxelMap& a, const VoxelMap& b) {
+  std::size_t count = 0;
+  a.for_each_voxel([&](const Voxel& v) { count += !b.contains(v); });
+  b.for_each_voxel([&](const Voxel& v) { count += !a.contains(v); });
+  return count;
+}
+
+// Rays are followed in micrometres there, and in doubles here.
 TEST(CarvedMap, WithoutCarvingIsWhatAddScanMakes) {
   Robot robot(false);
   OccupancyMap plain;
@@ -140,10 +149,11 @@ TEST(CarvedMap, WithoutCarvingIsWhatAddScanMakes) {
     const Pose2 pose = looking_from(i);
     const ChangedBlocks wanted = add_scan(scan_of(things, pose), to_pose3(pose), 100.0, plain);
     EXPECT_EQ(changed.occupied, wanted.occupied);
-    EXPECT_EQ(changed.passed, wanted.passed);
+    EXPECT_NEAR(double(changed.passed.size()), double(wanted.passed.size()), 2.0);
   }
   EXPECT_EQ(robot.map.map().occupied.hash(), plain.occupied.hash());
-  EXPECT_EQ(robot.map.map().passed.hash(), plain.passed.hash());
+  EXPECT_GT(plain.passed.size(), 10'000u);
+  EXPECT_LE(difference(robot.map.map().passed, plain.passed), plain.passed.size() / 10'000);
 }
 
 TEST(CarvedMap, TellsAllBlocksThatChanged) {
@@ -176,24 +186,32 @@ std::vector<Look> looks_of_a_day() {
 }
 
 CarvedMap made_of(const std::vector<Look>& looks) {
-  CarvedMap map;
+  CarvedMap map({.count_free = true});
   for (const Look& look : looks) map.add({look.pose, look.cloud});
   return map;
 }
 
-void recount(CarvedMap& map, const std::vector<CarvedMap::Scan>& touched,
-             const std::vector<Look>& looks) {
-  std::size_t next = 0;
-  const ChangedBlocks changed = map.recount(touched, [&]() -> std::optional<CarvedMap::Scan> {
+CarvedMap::Scans scans_of(const std::vector<Look>& looks, std::size_t& next) {
+  return [&]() -> std::optional<CarvedMap::Scan> {
     if (next == looks.size()) return std::nullopt;
     const Look& look = looks[next++];
     return CarvedMap::Scan{look.pose, look.cloud};
-  });
+  };
+}
+
+void recount(CarvedMap& map, const std::vector<Look>& touched, const std::vector<Look>& looks) {
+  std::size_t first = 0, next = 0;
+  const ChangedBlocks changed = map.recount(scans_of(touched, first), scans_of(looks, next));
   EXPECT_EQ(next, looks.size());
   EXPECT_EQ(changed.to, map.map().revision());
 }
 
-void expect_same(const CarvedMap& a, const CarvedMap& b) {
+void expect_same(CarvedMap& a, CarvedMap b) {
+  a.free_space().follow();
+  b.free_space().follow();
+  EXPECT_EQ(a.free_space().map().occupied.hash(), b.free_space().map().occupied.hash());
+  EXPECT_EQ(a.free_space().map().passed.hash(), b.free_space().map().passed.hash());
+  EXPECT_GT(b.free_space().map().passed.size(), 1000u);
   EXPECT_EQ(a.map().occupied.hash(), b.map().occupied.hash());
   EXPECT_EQ(a.map().passed.hash(), b.map().passed.hash());
   EXPECT_EQ(a.waiting().hash(), b.waiting().hash());
@@ -205,10 +223,9 @@ TEST(CarvedMap, AScanIsTakenOutAndPutBack) {
     std::vector<Look> others = all;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(out));
     CarvedMap map = made_of(all);
-    const CarvedMap::Scan scan{all[out].pose, all[out].cloud};
-    recount(map, {scan}, others);
+    recount(map, {all[out]}, others);
     expect_same(map, made_of(others));
-    recount(map, {scan}, all);
+    recount(map, {all[out]}, all);
     expect_same(map, made_of(all));
   }
 }
@@ -218,7 +235,7 @@ TEST(CarvedMap, AScanIsMoved) {
   std::vector<Look> after = before;
   after[3].pose = to_pose3({2.0, 1.0, 0.5});
   CarvedMap map = made_of(before);
-  recount(map, {{before[3].pose, before[3].cloud}, {after[3].pose, after[3].cloud}}, after);
+  recount(map, {before[3], after[3]}, after);
   expect_same(map, made_of(after));
 }
 
