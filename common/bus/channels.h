@@ -74,6 +74,12 @@ inline constexpr Channel<localisation_t> kLocalisation{"LOCALISATION"};
 /// (map_chunks.h). Frame: map. Rate: each cloud; a whole map on request. From mapper to localiser.
 inline constexpr Channel<map_update_t> kMapUpdate{"MAP_UPDATE"};
 
+/// Cells that are free and cells that are occupied, by counters of what rays hit and passed: blocks
+/// that changed, with the versions, chunks and requests of MAP_UPDATE (maps/README.md). Frame: map.
+/// Rate: each added cloud, once somebody has asked; all of it on request. From mapper to planners
+/// and viewers.
+inline constexpr Channel<map_update_t> kFreeSpace{"FREE_SPACE"};
+
 /// A cloud that went into the map, with its pose. Frame: base, pose in map. Rate: each added cloud.
 /// From mapper to octomap_export, which needs the rays that voxels no longer have.
 inline constexpr Channel<keyframe_t> kKeyframe{"KEYFRAME"};
@@ -81,8 +87,8 @@ inline constexpr Channel<keyframe_t> kKeyframe{"KEYFRAME"};
 /// Keyframes that one MAP_REQUEST brings at most: of 100,000 points they take 4 s on their way.
 inline constexpr int kKeyframesAtOnce = 32;
 
-/// Asks mapper for a whole map, for keyframes that were missed, or to save. Rate: when needed.
-/// From localiser, octomap_export, scripts to mapper.
+/// Asks mapper for a whole map, for free space, for keyframes that were missed, or to save. Rate:
+/// when needed. From localiser, octomap_export, scripts to mapper.
 inline constexpr Channel<map_request_t> kMapRequest{"MAP_REQUEST"};
 
 /// The map as an OctoMap. Frame: map. Rate: on change, at most 1 Hz.

@@ -76,18 +76,25 @@ std::optional<ToldPose> pose_of(const localisation_t& message) {
                   {tilt[0], wrap_angle(tilt[1]), wrap_angle(tilt[2])}};
 }
 
+mapping::MapBuilderConfig with_free_space(mapping::MapBuilderConfig config) {
+  config.count_free = true;
+  return config;
+}
+
 }  // namespace
 
 MapperService::MapperService(bus::Bus& bus, bus::Health& health, const MapperServiceConfig& config)
     : bus_(bus),
       health_(health),
       config_(config),
-      builder_(config.builder),
+      builder_(with_free_space(config.builder)),
       keyframes_(health, in_state_folder(config.folder), config.extend, new_map_id(),
                  builder_.poses(),
                  [this](mapping::Keyframe keyframe) { restore(std::move(keyframe)); }),
       map_id_(keyframes_.map_id()),
-      cloud_input_(health) {
+      cloud_input_(health),
+      map_channel_(bus, health, sender_, bus::kMapUpdate),
+      free_channel_(bus, health, sender_, bus::kFreeSpace) {
   bus_.subscribe(bus::kCloud, [this](const pointcloud_t& message) { take_cloud(message); });
   bus_.subscribe(bus::kLocalisation,
                  [this](const localisation_t& message) { take_localisation(message); });
@@ -170,11 +177,13 @@ void MapperService::add(Cloud cloud, const Pose3& pose) {
 }
 
 void MapperService::take_request(const map_request_t& message) {
+  if (message.want == map_request_t::WANT_FREE_SPACE) return answer_for_free_space(message);
   if (message.want == map_request_t::WANT_NEW_MAP) give_up(message.map_id);
   send_word(message.utime);
   switch (message.want) {
     case map_request_t::WANT_MAP:
-      if (has_use_for_map(message) && whole_maps_queued_ == 0) send_change(bus::kWholeMap);
+      if (has_use_for_map(message) && !map_channel_.is_sending_whole())
+        send_map_change(bus::kWholeMap);
       return;
     case map_request_t::WANT_KEYFRAMES:
       return resend_keyframes(static_cast<std::size_t>(std::max(0, message.first)));
@@ -199,57 +208,58 @@ void MapperService::give_up(std::int64_t map_id) {
   builder_.clear();
   path_ = {};
   sender_.clear();
-  whole_maps_queued_ = resends_queued_ = 0;
+  resends_queued_ = 0;
+  map_channel_.clear();
+  free_channel_.clear();
   health_.count("maps_given_up");
   health_.raise("given_up", bus::Health::State::kWarning,
                 "the map's first cloud was given up, as no other fits it: was something before the "
                 "scanner?");
 }
 
-bus::MapChange MapperService::nothing_new() const {
+// From the first request on: each MAP_UPDATE has its FREE_SPACE.
+void MapperService::answer_for_free_space(const map_request_t& message) {
+  is_free_space_wanted_ = true;
+  free_channel_.send_word(nothing_new(builder_.free_space()), message.utime);
+  if (has_use_for_map(message) && !free_channel_.is_sending_whole())
+    send_free_space_change(bus::kWholeMap);
+}
+
+bus::MapChange MapperService::nothing_new(const OccupancyMap& map) const {
   bus::MapChange change;
   change.utime_us = decided_utime_us_;
   change.map_id = map_id_;
   change.version = change.base_version = version();
-  change.resolution = bus::resolution_of(builder_.map());
+  change.resolution = bus::resolution_of(map);
   return change;
 }
 
-// An empty map is told whole.
 void MapperService::send_word(std::int64_t answers) {
-  bus::MapChange word = nothing_new();
-  if (version() == 0) word.base_version = bus::kWholeMap;
-  auto message = std::make_shared<map_update_t>(std::move(bus::split_map(std::move(word)).front()));
-  message->answers = answers;
-  const auto bytes = static_cast<std::size_t>(message->getEncodedSize());
-  const bool queued =
-      sender_.push_first(bytes, [this, message] { bus_.publish(bus::kMapUpdate, *message); });
-  if (!queued) health_.count("MAP_UPDATE/queue_full");
+  map_channel_.send_word(nothing_new(builder_.map()), answers);
 }
 
 void MapperService::send_change(std::int64_t base_version) {
-  bus::MapChange change = nothing_new();
+  send_map_change(base_version);
+  if (is_free_space_wanted_) send_free_space_change(base_version);
+}
+
+void MapperService::send_map_change(std::int64_t base_version) {
+  map_channel_.send(change_of(base_version, builder_.map(), builder_.changed_blocks()));
+}
+
+void MapperService::send_free_space_change(std::int64_t base_version) {
+  free_channel_.send(change_of(base_version, builder_.free_space(), builder_.changed_free_space()));
+}
+
+bus::MapChange MapperService::change_of(std::int64_t base_version, const OccupancyMap& map,
+                                        const ChangedBlocks& changed) const {
+  bus::MapChange change = nothing_new(map);
   change.base_version = base_version;
-  if (base_version == bus::kWholeMap) {
-    change.blocks = bus::to_messages(builder_.map());
-  } else if (base_version != version()) {
-    change.blocks = bus::to_messages(builder_.map(), builder_.changed_blocks());
-  }
-  const bool whole = change.is_whole();
-  auto messages = bus::split_map(std::move(change));
-  for (std::size_t i = 0; i < messages.size(); ++i) {
-    const bool last_of_whole = whole && i + 1 == messages.size();
-    auto message = std::make_shared<map_update_t>(std::move(messages[i]));
-    const auto bytes = static_cast<std::size_t>(message->getEncodedSize());
-    const auto send = [this, message, last_of_whole] {
-      bus_.publish(bus::kMapUpdate, *message);
-      if (last_of_whole) --whole_maps_queued_;
-    };
-    // The localiser waits for what is new, and whole maps take a while.
-    const bool queued = whole ? sender_.push(bytes, send) : sender_.push_first(bytes, send);
-    if (!queued) return health_.count("MAP_UPDATE/queue_full");
-    if (last_of_whole) ++whole_maps_queued_;
-  }
+  if (base_version == bus::kWholeMap)
+    change.blocks = bus::to_messages(map);
+  else if (base_version != version())
+    change.blocks = bus::to_messages(map, changed);
+  return change;
 }
 
 // Not who has another map: before it drops that, it asks again.

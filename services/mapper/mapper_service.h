@@ -6,6 +6,7 @@
 #include <string>
 
 #include "services/mapper/keyframe_keeper.h"
+#include "services/mapper/map_channel.h"
 #include "services/mapper/travelled_path.h"
 #include "voxlist/bus/maps/map_chunks.h"
 #include "voxlist/bus/multicast/paced_sender.h"
@@ -48,7 +49,8 @@ struct MapperServiceConfig {
   }
 };
 
-/// CLOUD, LOCALISATION and MAP_REQUEST in; MAP_UPDATE and KEYFRAME out; the map folder on disk.
+/// CLOUD, LOCALISATION and MAP_REQUEST in; MAP_UPDATE, FREE_SPACE and KEYFRAME out; the map
+/// folder on disk.
 ///
 /// Each LOCALISATION is answered by a MAP_UPDATE, an empty one when nothing was added: the
 /// localiser waits for it. A pose counts only when it was found in the map as it is: of this id and
@@ -84,8 +86,13 @@ class MapperService {
   void add(Cloud cloud, const Pose3& pose);
   std::optional<Cloud> take_waiting_cloud(std::int64_t utime_us);
   void send_change(std::int64_t base_version);
+  void send_map_change(std::int64_t base_version);
+  void send_free_space_change(std::int64_t base_version);
   void send_word(std::int64_t answers);
-  bus::MapChange nothing_new() const;
+  void answer_for_free_space(const map_request_t& message);
+  bus::MapChange nothing_new(const OccupancyMap& map) const;
+  bus::MapChange change_of(std::int64_t base_version, const OccupancyMap& map,
+                           const ChangedBlocks& changed) const;
   bool has_use_for_map(const map_request_t& message) const;
   void send_keyframes(std::size_t first, std::size_t at_most);
   void resend_keyframes(std::size_t first);
@@ -105,9 +112,10 @@ class MapperService {
   service::CloudInput cloud_input_;
   std::deque<Cloud> recent_clouds_;
   bus::PacedSender sender_;
+  MapChannel map_channel_, free_channel_;
+  bool is_free_space_wanted_ = false;
   std::int64_t decided_utime_us_ = 0;
   // Requests are answered one at a time, whoever asks and however often.
-  std::int64_t whole_maps_queued_ = 0;
   std::int64_t resends_queued_ = 0;
   bool save_wanted_ = false;
   std::optional<std::int64_t> next_save_us_;

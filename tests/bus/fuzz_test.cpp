@@ -46,6 +46,7 @@ class Victim {
     listen(kTruth, Delivery::kEvery, [](const pose_t& m) { from_message(m); });
     listen(kKeyframe, Delivery::kEvery, [](const keyframe_t& m) { from_message(m); });
     listen(kMapUpdate, Delivery::kEvery, [this](const map_update_t& m) { take_map(m); });
+    listen(kFreeSpace, Delivery::kEvery, [this](const map_update_t& m) { take_map(m); });
     listen(kLocalisation, Delivery::kEvery, [](const localisation_t&) {});
     listen(kMapRequest, Delivery::kEvery, [](const map_request_t&) {});
     listen(kOctomap, Delivery::kEvery, [](const map_octree_t&) {});

@@ -1,10 +1,15 @@
 #include "voxlist/service/inputs/map_follower.h"
 
+#include <string>
 #include <utility>
 #include <voxlist/map_request_t.hpp>
 #include <voxlist/map_update_t.hpp>
 
 namespace voxlist::service {
+
+const MapSource kMapSource{"MAP_UPDATE", map_request_t::WANT_MAP};
+const MapSource kFreeSpaceSource{"FREE_SPACE", map_request_t::WANT_FREE_SPACE};
+
 namespace {
 
 // A map that is on its way and of which nothing has come for so long (us) has lost a part.
@@ -44,7 +49,7 @@ std::optional<map_request_t> MapFollower::tick(std::int64_t now_us) {
   if (!utime_us) return std::nullopt;
   map_request_t request{};
   request.utime = *utime_us;
-  request.want = map_request_t::WANT_MAP;
+  request.want = source_.want;
   if (!held()) return request;
   request.map_id = held()->map_id;
   request.version = held()->version;
@@ -59,7 +64,7 @@ std::optional<std::int64_t> MapFollower::map_id() const {
 void MapFollower::count_refusals() {
   for (const auto& [what, times] : assembler_.counters()) {
     const std::int64_t before = std::exchange(counted_[what], times);
-    if (times != before) health_.count("MAP_UPDATE/" + what, times - before);
+    if (times != before) health_.count(std::string(source_.channel) + "/" + what, times - before);
   }
 }
 

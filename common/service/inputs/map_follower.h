@@ -13,11 +13,22 @@ class map_request_t;
 
 namespace voxlist::service {
 
-/// MAP_UPDATE's door: what it lets through is the mapper's map, and never goes back to an older
-/// version of it unless the mapper itself has. Asks the mapper for what is missing.
+/// Where one of the mapper's maps comes from: its channel, and what a request for it wants.
+struct MapSource {
+  const char* channel;
+  std::int32_t want;
+};
+
+/// What was hit and passed (MAP_UPDATE); which cells are free and which occupied (FREE_SPACE).
+extern const MapSource kMapSource, kFreeSpaceSource;
+
+/// MAP_UPDATE's door, or FREE_SPACE's: what it lets through is the mapper's map, and never goes
+/// back to an older version of it unless the mapper itself has. Asks the mapper for what is
+/// missing.
 class MapFollower {
  public:
-  explicit MapFollower(bus::Health& health) : health_(health), word_(health) {}
+  explicit MapFollower(bus::Health& health, const MapSource& source = kMapSource)
+      : health_(health), source_(source), word_(health, source.channel) {}
 
   /// The changes to apply now, in this order: mostly none or one.
   std::vector<bus::MapChange> take(const map_update_t& message);
@@ -42,6 +53,7 @@ class MapFollower {
   bool is_behind() const;
 
   bus::Health& health_;
+  const MapSource source_;
   MapperWord word_;
   bus::MapAssembler assembler_;
   bus::Counters counted_;

@@ -26,9 +26,10 @@ constexpr std::int64_t kSilence_us = 3'000'000;
 
 }  // namespace
 
-MapperWord::MapperWord(bus::Health& health)
+MapperWord::MapperWord(bus::Health& health, std::string channel)
     : health_(health),
-      check_(health, {.channel = "MAP_UPDATE", .remedy = "", .is_needed = false}) {}
+      channel_(std::move(channel)),
+      check_(health, {.channel = channel_, .remedy = "", .is_needed = false}) {}
 
 bool MapperWord::take(const map_update_t& update) {
   if (refuse(update)) return false;
@@ -37,7 +38,7 @@ bool MapperWord::take(const map_update_t& update) {
   else
     take_rumour(update);
   const bool is_ours = word_ && word_->map_id == update.map_id;
-  if (word_ && !is_ours) health_.count("MAP_UPDATE/other_map");
+  if (word_ && !is_ours) health_.count(channel_ + "/other_map");
   if (update.base_version == bus::kWholeMap) return is_ours && update.version == answered_version_;
   return is_ours && update.version <= word_->version;
 }
@@ -45,9 +46,9 @@ bool MapperWord::take(const map_update_t& update) {
 bool MapperWord::refuse(const map_update_t& update) {
   const bus::MapFault fault = bus::fault_of(update);
   if (fault == bus::MapFault::kNone) return false;
-  health_.count(std::string("MAP_UPDATE/") + bus::name(fault));
+  health_.count(channel_ + "/" + bus::name(fault));
   check_.note(bus::name(fault), State::kWarning,
-              fmt::format("a MAP_UPDATE {}, and was left out", bus::sentence(fault)));
+              fmt::format("a {} {}, and was left out", channel_, bus::sentence(fault)));
   return true;
 }
 
@@ -61,8 +62,9 @@ void MapperWord::take_answer(const Word& said) {
     if (rival_) note_two_mappers();
     if (has_heard_of_another_)
       check_.note("other_map", State::kWarning,
-                  "MAP_UPDATE of another map than the mapper's was left out: is a recording played "
-                  "that has MAP_UPDATE in it?");
+                  fmt::format("{0} of another map than the mapper's was left out: is a recording "
+                              "played that has {0} in it?",
+                              channel_));
     return settle(said);
   }
   if (!std::exchange(rival_, said)) rival_since_us_ = now_us_;
@@ -96,7 +98,7 @@ void MapperWord::note_two_mappers() {
 void MapperWord::tick(std::int64_t now_us) {
   now_us_ = now_us;
   if (rival_ && now_us - rival_since_us_ >= kObjection_us) {
-    health_.count("MAP_UPDATE/new_map");
+    health_.count(channel_ + "/new_map");
     check_.note("new_map", State::kWarning,
                 fmt::format("the mapper has another map now, of id {}: the one before was dropped",
                             rival_->map_id));

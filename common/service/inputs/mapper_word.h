@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include "voxlist/service/inputs/channel_check.h"
 
@@ -23,7 +24,8 @@ class MapperWord {
     std::int64_t version;
   };
 
-  explicit MapperWord(bus::Health& health);
+  /// `channel`: MAP_UPDATE, or another one that carries such messages of the mapper's.
+  explicit MapperWord(bus::Health& health, std::string channel = "MAP_UPDATE");
 
   /// Looks at an update before anything else is done with it. False: leave it out. It makes no
   /// sense, or is not of the mapper's map, or of a version that the mapper is not known to have, or
@@ -50,6 +52,7 @@ class MapperWord {
   void note_two_mappers();
 
   bus::Health& health_;
+  const std::string channel_;
   ChannelCheck check_;
   std::optional<Word> word_;
   std::int64_t answered_version_ = 0;
