@@ -1,5 +1,7 @@
 #include "voxlist/mapping/loops/loop_search.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <optional>
 
@@ -40,40 +42,49 @@ class Search {
   Search(const PoseTree& tree, const ReadCloud& read, const matching::MatcherConfig& config)
       : tree_(tree), read_(read), config_(config) {}
 
-  std::vector<Loop> look() {
-    std::optional<std::size_t> last;
-    for (std::size_t i = 0; i < tree_.size(); ++i) {
-      if (last && tree_.way_m(*last, i) < kEach_m) continue;
-      last = i;
-      look_from(i);
-    }
-    return std::move(loops_);
+  // Several threads at once, the same for any number of them.
+  std::vector<Loop> look() const {
+    const std::vector<std::size_t> from = places();
+    std::vector<std::vector<Loop>> found(from.size());
+    tbb::parallel_for(std::size_t{0}, from.size(),
+                      [&](std::size_t i) { found[i] = look_from(from[i]); });
+    std::vector<Loop> all;
+    for (const auto& loops : found) all.insert(all.end(), loops.begin(), loops.end());
+    return all;
   }
 
  private:
-  void look_from(std::size_t keyframe) {
-    if (!nearest_open(keyframe, config_.scan.max_range_m)) return;
+  std::vector<std::size_t> places() const {
+    std::vector<std::size_t> places;
+    for (std::size_t i = 0; i < tree_.size(); ++i)
+      if (places.empty() || tree_.way_m(places.back(), i) >= kEach_m) places.push_back(i);
+    return places;
+  }
+
+  std::vector<Loop> look_from(std::size_t keyframe) const {
+    if (!nearest_open(keyframe, config_.scan.max_range_m)) return {};
     const Cloud cloud = read_(keyframe);
     const matching::PreparedScan scan(cloud, config_.scan);
     const auto old = nearest_open(keyframe, scan.reach_m());
-    if (!old) return;
+    if (!old) return {};
     const UncertainPose predicted = in_window(tree_.between(*old, keyframe));
     const double told_m = kTold * worst_sigma_m(predicted.covariance);
     const auto found = map_round(*old, keyframe).match(scan, predicted);
     const auto& modes = found.match.modes;
-    for (std::size_t i = 0, places = 0; i < modes.size() && places < kMostPlaces; ++i) {
-      if (worst_sigma_m(modes[i].covariance) > told_m) continue;
-      add(*old, keyframe, modes[i], found.probabilities[i]);
-      ++places;
-    }
+    std::vector<Loop> loops;
+    for (std::size_t i = 0; i < modes.size() && loops.size() < kMostPlaces; ++i)
+      if (worst_sigma_m(modes[i].covariance) <= told_m)
+        loops.push_back(loop(*old, keyframe, modes[i], found.probabilities[i]));
+    return loops;
   }
 
-  void add(std::size_t from, std::size_t to, const matching::MatchMode& mode, double probability) {
+  static Loop loop(std::size_t from, std::size_t to, const matching::MatchMode& mode,
+                   double probability) {
     UncertainPose T_from_to{mode.pose, mode.covariance};
     T_from_to.covariance.diagonal() += Eigen::Vector3d(kLocal_m, kLocal_m, kLocal_rad).cwiseAbs2();
     // Both ends in the order of time, so that looks from either compare.
     const PoseEdge edge{from, to, T_from_to};
-    loops_.push_back({from < to ? edge : reversed(edge), to, probability});
+    return {from < to ? edge : reversed(edge), to, probability};
   }
 
   // Whether the drive tells too little of how they stand: by a long way, or by a vague step.
@@ -93,7 +104,7 @@ class Search {
     return nearest;
   }
 
-  LocalMap map_round(std::size_t centre, std::size_t keyframe) {
+  LocalMap map_round(std::size_t centre, std::size_t keyframe) const {
     std::vector<std::size_t> round;
     for (std::size_t i = 0; i < tree_.size(); ++i)
       if (tree_.way_m(centre, i) <= kRound_m && is_open(i, keyframe)) round.push_back(i);
@@ -119,7 +130,6 @@ class Search {
   const PoseTree& tree_;
   const ReadCloud& read_;
   const matching::MatcherConfig config_;
-  std::vector<Loop> loops_;
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "voxlist/mapping/loops/map_closing.h"
 
 #include <algorithm>
+#include <mutex>
 
 #include "voxlist/mapping/graph/loop_closing.h"
 #include "voxlist/mapping/graph/pose_graph.h"
@@ -50,13 +51,23 @@ bool is_open(const std::vector<Pose2>& poses, const std::vector<PoseEdge>& drive
                      [&](const Loop& loop) { return missed(loop.edge); });
 }
 
+// Reads for several threads, one at a time.
+ReadCloud one_by_one(const ReadCloud& read, std::mutex& mutex) {
+  return [&read, &mutex](std::size_t keyframe) {
+    const std::lock_guard lock(mutex);
+    return read(keyframe);
+  };
+}
+
 }  // namespace
 
 MapClosing close_map(const std::vector<Pose2>& poses, const DriveOdometry& odometry,
-                     const ReadCloud& read, const matching::MatcherConfig& config) {
+                     const ReadCloud& read_cloud, const matching::MatcherConfig& config) {
   MapClosing closing;
   closing.poses = poses;
   if (!has_long_step(poses) && !may_come_back(poses, config.scan.max_range_m)) return closing;
+  std::mutex mutex;
+  const ReadCloud read = one_by_one(read_cloud, mutex);
   const std::vector<PoseEdge> drive = join_neighbours(poses, odometry, read, config);
   const PoseTree tree(poses.size(), drive);
   const ClosedDrive closed =

@@ -27,8 +27,9 @@ struct MapClosing {
 /// Where keyframes, whose poses are about right, stand when the drive's loops are closed.
 /// `poses`: T_map_keyframe in the order of time; the first one stays. `odometry`: of each, or
 /// empty. A match for each keyframe and its neighbour and one each 2 m, 10 to 30 ms each, where the
-/// drive came back or has a step of more than 10 m; next to nothing where it did not.
+/// drive came back or has a step of more than 10 m; next to nothing where it did not. Several
+/// matches at once, on the threads of the caller's arena; `read_cloud` is asked by one at a time.
 MapClosing close_map(const std::vector<Pose2>& poses, const DriveOdometry& odometry,
-                     const ReadCloud& read, const matching::MatcherConfig& config);
+                     const ReadCloud& read_cloud, const matching::MatcherConfig& config);
 
 }  // namespace voxlist::mapping

@@ -7,6 +7,7 @@
 #include "services/voxlist/output/stop.h"
 #include "voxlist/geometry/elementary.h"
 #include "voxlist/matching/localisation/reach_match.h"
+#include "voxlist/matching/localisation/thread_arena.h"
 
 namespace voxlist::desk {
 namespace {
@@ -110,7 +111,10 @@ void MapRun::finish() {
   while (join_one()) {
   }
   place_loose();
-  if (!goes_on_ && !stop_requested()) closing_ = close_piece(map(), spool_, localiser_.matcher);
+  if (goes_on_ || stop_requested()) return;
+  matching::ThreadArena(localiser_.threads).run([this] {
+    closing_ = close_piece(map(), spool_, localiser_.matcher);
+  });
 }
 
 std::vector<StampedPose3> MapRun::trajectory() const {
