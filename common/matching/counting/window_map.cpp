@@ -52,6 +52,11 @@ std::uint32_t occupied_cells(const VoxelBlock& bits) {
   return cells;
 }
 
+// A map's blocks stand in a row, by their numbers. Precondition: the map has the block.
+std::uint32_t number_of(const VoxelMap& map, const Voxel& block) {
+  return static_cast<std::uint32_t>(map.find_block(block) - &map.block(0));
+}
+
 }  // namespace
 
 void WindowMap::hold(const CellRectangle& needed) {
@@ -65,7 +70,7 @@ void WindowMap::hold(const CellRectangle& needed) {
     for (std::int32_t x = around.low_x; x < around.end_x; x += kPatch) {
       Patch* patch = find_patch(x, y);
       if (!patch || patch->ready) continue;
-      for (const std::uint32_t i : patch->blocks) mark(map_.block_position(i), map_.block(i));
+      for (const std::uint32_t i : patch->blocks) mark(i);
       patch->ready = true;
     }
   }
@@ -76,7 +81,16 @@ void WindowMap::map_changed(const std::vector<Voxel>& blocks) {
   list_new_blocks();
   if (!columns_) return;
   for (const Voxel& position : blocks)
-    if (is_ready(position)) mark_again(position);
+    if (is_ready(position)) update(number_of(map_, position));
+}
+
+// Most blocks that change mark the cells that they did, and most others more of them.
+void WindowMap::update(std::uint32_t number) {
+  const std::uint32_t before = marked_[number], now = occupied_cells(map_.block(number));
+  if (now == before) return;
+  if ((before & ~now) == 0) return mark(number);
+  marked_[number] = now;
+  mark_again(map_.block_position(number));
 }
 
 WindowMap::Count WindowMap::count(const CellRectangle& rectangle) const {
@@ -112,6 +126,7 @@ void WindowMap::list_new_blocks() {
     patch.lowest_z = std::min(patch.lowest_z, layer_of(block));
     patch.highest_z = std::max(patch.highest_z, layer_of(block));
     patch.blocks.push_back(static_cast<std::uint32_t>(listed_));
+    marked_.push_back(0);
     const bool room_enough = layer_of(block) >= lowest_z_ && layer_of(block) < lowest_z_ + size_z_;
     if (!room_enough && ground_.holds({x, y, x + 1, y + 1})) columns_.reset();
   }
@@ -143,8 +158,9 @@ void WindowMap::make_room(const CellRectangle& ground) {
   occupied_.assign(counter_of(ground.low_x, ground.low_y, lowest_z_ + size_z_), 0);
 }
 
-void WindowMap::mark(const Voxel& block, const VoxelBlock& bits) {
-  const std::uint32_t cells = occupied_cells(bits);
+void WindowMap::mark(std::uint32_t number) {
+  const Voxel& block = map_.block_position(number);
+  const std::uint32_t cells = marked_[number] = occupied_cells(map_.block(number));
   constexpr std::uint32_t kColumns = 0x01010101;
   const std::int32_t x = 2 * block.x - 1, y = 2 * block.y - 1, z = layer_of(block);
   std::uint8_t* row = columns_.get() + place(x, y, z);

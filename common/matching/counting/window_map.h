@@ -95,7 +95,8 @@ class WindowMap {
   void list_new_blocks();
   void make_room(const CellRectangle& ground);
   std::int32_t layer_of(const Voxel& block) const { return block.z >> doublings_; }
-  void mark(const Voxel& block, const VoxelBlock& bits);
+  void mark(std::uint32_t number);
+  void update(std::uint32_t number);
   bool is_ready(const Voxel& block);
   std::uint32_t cells_at(const Voxel& block, std::int32_t dx, std::int32_t dy);
   void mark_again(const Voxel& block);
@@ -106,6 +107,8 @@ class WindowMap {
   const int doublings_;
   std::uint64_t revision_;  // of the map, when it was last told of
   std::size_t listed_ = 0;  // blocks of the map that patches know of
+  std::vector<std::uint32_t>
+      marked_;  // by block: the cells that it marks, in a patch that is ready
   Numbering<Voxel> patch_positions_;
   std::vector<Patch> patches_;
   CellRectangle ground_;  // there is room for it
