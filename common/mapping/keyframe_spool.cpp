@@ -39,6 +39,7 @@ KeyframeSpool::KeyframeSpool(const std::filesystem::path& folder)
 }
 
 std::size_t KeyframeSpool::add(const Keyframe& keyframe) {
+  const std::lock_guard lock(mutex_);
   const std::size_t index = stored_->size();
   const std::string record = encode_record(keyframe, kNoMap, static_cast<std::uint32_t>(index));
   if (!write_all(file_.get(), record))
@@ -49,6 +50,7 @@ std::size_t KeyframeSpool::add(const Keyframe& keyframe) {
 }
 
 Keyframe KeyframeSpool::read(const SpooledKeyframe& keyframe) {
+  const std::lock_guard lock(mutex_);
   auto found = stored_->read(keyframe.index);
   if (!found) throw io::FileError(folder_, "the disk lost keyframes while the map was made");
   found->T_map_base = keyframe.T_map_base;

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <mutex>
 #include <optional>
 #include <vector>
 
@@ -20,7 +21,8 @@ struct SpooledKeyframe {
 };
 
 /// The keyframes of a map in the making, whose id is not known yet: on the disk, in a file without
-/// a name, which goes with this object however the process ends.
+/// a name, which goes with this object however the process ends. Several threads may read and add
+/// at once.
 class KeyframeSpool {
  public:
   /// Throws FileError when nothing can be written in the folder.
@@ -41,6 +43,7 @@ class KeyframeSpool {
   FileDescriptor file_;
   std::optional<StoredKeyframes> stored_;
   std::uint64_t bytes_ = 0;
+  std::mutex mutex_;  // of the file
 };
 
 }  // namespace voxlist::mapping

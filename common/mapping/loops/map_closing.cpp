@@ -62,13 +62,14 @@ ReadCloud one_by_one(const ReadCloud& read, std::mutex& mutex) {
 }  // namespace
 
 MapClosing close_map(const std::vector<Pose2>& poses, const DriveOdometry& odometry,
-                     const ReadCloud& read_cloud, const matching::MatcherConfig& config) {
+                     const ReadCloud& read_cloud, const matching::MatcherConfig& config,
+                     const KnownLook& known) {
   MapClosing closing;
   closing.poses = poses;
   if (!has_long_step(poses) && !may_come_back(poses, config.scan.max_range_m)) return closing;
   std::mutex mutex;
   const ReadCloud read = one_by_one(read_cloud, mutex);
-  const std::vector<PoseEdge> drive = join_neighbours(poses, odometry, read, config);
+  const std::vector<PoseEdge> drive = join_neighbours(poses, odometry, read, config, known);
   const PoseTree tree(poses.size(), drive);
   const ClosedDrive closed =
       close_loops(tree, drive, find_loops(tree, read, config), poses.front());

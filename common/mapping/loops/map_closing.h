@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "voxlist/mapping/graph/pose_edge.h"
-#include "voxlist/mapping/loops/local_map.h"
+#include "voxlist/mapping/loops/neighbour_look.h"
 #include "voxlist/mapping/loops/odometry_step.h"
 
 namespace voxlist::mapping {
@@ -29,7 +29,9 @@ struct MapClosing {
 /// empty. A match for each keyframe and its neighbour and one each 2 m, 10 to 30 ms each, where the
 /// drive came back or has a step of more than 10 m; next to nothing where it did not. Several
 /// matches at once, on the threads of the caller's arena; `read_cloud` is asked by one at a time.
+/// `known`: looks of neighbours that were taken before; the answer is the same without them.
 MapClosing close_map(const std::vector<Pose2>& poses, const DriveOdometry& odometry,
-                     const ReadCloud& read_cloud, const matching::MatcherConfig& config);
+                     const ReadCloud& read_cloud, const matching::MatcherConfig& config,
+                     const KnownLook& known = {});
 
 }  // namespace voxlist::mapping

@@ -3,8 +3,6 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <deque>
-#include <memory>
 #include <numeric>
 #include <optional>
 
@@ -14,17 +12,6 @@
 namespace voxlist::mapping {
 namespace {
 
-// Neighbours stand in the map as it was made to so much (m, rad), as standard deviations: what a
-// tracked scan, or one that joined two pieces, may be off by.
-constexpr double kMap_m = 0.3, kMap_rad = 0.02;
-// A match of neighbours is taken from this probability on; of 245 pairs of real stations that had
-// more, one was off by more than 0.3 m.
-constexpr double kTaken = 0.5;
-// A match that leaves a direction less sure than this (m) says no more than the map did.
-constexpr double kTold_m = 0.25;
-// One that knows all directions so well (m), as between the scans of a drive, is not asked again
-// the other way round: of stations, where one was, the two differ by more in half of the pairs.
-constexpr double kPlain_m = 0.005;
 // Keyframes that are farther apart than this (m) are not matched to join two parts of a drive.
 constexpr double kSight_m = 20.0;
 // Most matches that are tried for that, each some 20 ms.
@@ -32,8 +19,6 @@ constexpr std::size_t kMostTries = 200;
 // A scan that fits one neighbour too little is matched with so many in a row. The stations that
 // such a match is needed for are 11 and 17 m apart.
 constexpr std::size_t kMore = 4;
-// So many keyframes are kept ready for the next match.
-constexpr std::size_t kKept = 4;
 // So many pairs in a row are matched by one thread: each scan but the first is made ready once.
 constexpr std::size_t kPairsAtOnce = 8;
 // What matches of neighbours have in common and do not tell, since both scans are bent or tilted
@@ -50,19 +35,6 @@ Eigen::Matrix3d variances(double shift_m, double turn_rad) {
   return Eigen::Vector3d(shift_m * shift_m, shift_m * shift_m, turn_rad * turn_rad).asDiagonal();
 }
 
-// A keyframe made ready for matching, both ways.
-struct Prepared {
-  std::size_t number;
-  Cloud cloud;
-  matching::PreparedScan scan;
-  LocalMap map;
-
-  Prepared(std::size_t keyframe, Cloud read, const matching::MatcherConfig& config)
-      : number(keyframe), cloud(std::move(read)), scan(cloud, config.scan), map(config) {
-    map.add(cloud, {});
-  }
-};
-
 // The mean of two looks at the same motion, as far as they agree. Both are of the same two scans,
 // so together they are no surer than one of them.
 UncertainPose mean_of(const UncertainPose& a, const UncertainPose& b) {
@@ -72,89 +44,21 @@ UncertainPose mean_of(const UncertainPose& a, const UncertainPose& b) {
   return both;
 }
 
-Eigen::Matrix3d map_variances() { return variances(kMap_m, kMap_rad); }
-
-// What the scans of two keyframes say of how they stand: each in the map of the other.
-struct Both {
-  std::optional<PoseEdge> there, back;
-};
-
-// Matches keyframes, and keeps some of them ready for the next match.
-class Looker {
- public:
-  Looker(const std::vector<Pose2>& poses, const ReadCloud& read,
-         const matching::MatcherConfig& config)
-      : poses_(poses), read_(read), config_(config) {}
-
-  Both look(std::size_t from, std::size_t to) {
-    const std::optional<PoseEdge> there = matched(from, to);
-    const bool plain = there && worst_sigma_m(there->T_from_to.covariance) < kPlain_m;
-    return {there, plain ? std::nullopt : matched(to, from)};
-  }
-
-  Both look_with_more(std::size_t from, std::size_t to) {
-    return {matched_with_more(from, to), matched_with_more(to, from)};
-  }
-
-  UncertainPose as_mapped(std::size_t from, std::size_t to) const {
-    return {poses_[from].inverse() * poses_[to], map_variances()};
-  }
-
- private:
-  // Stays as long as no more than one other is asked for.
-  Prepared& prepared(std::size_t keyframe) {
-    const auto at = std::find_if(kept_.begin(), kept_.end(),
-                                 [&](const auto& kept) { return kept->number == keyframe; });
-    if (at != kept_.end()) {
-      std::rotate(at, at + 1, kept_.end());
-      return *kept_.back();
-    }
-    if (kept_.size() == kKept) kept_.pop_front();
-    kept_.push_back(std::make_unique<Prepared>(keyframe, read_(keyframe), config_));
-    return *kept_.back();
-  }
-
-  // A scan in the map of one other.
-  std::optional<PoseEdge> matched(std::size_t from, std::size_t to) {
-    Prepared &map = prepared(from), &scan = prepared(to);
-    return taken(from, to, map.map.match(scan.scan, as_mapped(from, to)));
-  }
-
-  // A scan in the map of several on the other side of a step, as they are mapped.
-  std::optional<PoseEdge> matched_with_more(std::size_t from, std::size_t to) {
-    LocalMap map(config_);
-    for (std::size_t i = 0; i < kMore; ++i) {
-      const std::size_t next = from < to ? from - i : from + i;
-      if (next >= poses_.size()) break;
-      map.add(read_(next), poses_[from].inverse() * poses_[next]);
-    }
-    return taken(from, to, map.match(prepared(to).scan, as_mapped(from, to)));
-  }
-
-  std::optional<PoseEdge> taken(std::size_t from, std::size_t to,
-                                const matching::ReachMatch& found) const {
-    if (found.best() < kTaken) return std::nullopt;
-    const matching::MatchMode& best = found.match.modes.front();
-    if (worst_sigma_m(best.covariance) > kTold_m) return std::nullopt;
-    return PoseEdge{from, to, {best.pose, best.covariance}};
-  }
-
-  const std::vector<Pose2>& poses_;
-  const ReadCloud& read_;
-  const matching::MatcherConfig& config_;
-  std::deque<std::unique_ptr<Prepared>> kept_;
-};
-
 // Keyframe i with the one before it; several threads at once, the same for any number of them.
-std::vector<Both> look_at_neighbours(const std::vector<Pose2>& poses, const ReadCloud& read,
-                                     const matching::MatcherConfig& config) {
-  std::vector<Both> looks(poses.size());
+std::vector<NeighbourLook> look_at_neighbours(const std::vector<Pose2>& poses,
+                                              const ReadCloud& read,
+                                              const matching::MatcherConfig& config,
+                                              const KnownLook& known) {
+  std::vector<NeighbourLook> looks(poses.size());
   const std::size_t parts = (poses.size() + kPairsAtOnce - 1) / kPairsAtOnce;
   tbb::parallel_for(std::size_t{0}, parts, [&](std::size_t part) {
-    Looker looker(poses, read, config);
+    NeighbourLooker looker(read, config);
     const std::size_t end = std::min((part + 1) * kPairsAtOnce, poses.size());
-    for (std::size_t i = std::max<std::size_t>(part * kPairsAtOnce, 1); i < end; ++i)
-      looks[i] = looker.look(i - 1, i);
+    for (std::size_t i = std::max<std::size_t>(part * kPairsAtOnce, 1); i < end; ++i) {
+      const NeighbourLook* before = known ? known(i - 1, i) : nullptr;
+      const bool is_known = before && are_alike(*before, no_look_yet(poses[i - 1], poses[i]));
+      looks[i] = is_known ? *before : looker.look(i - 1, i, poses[i - 1], poses[i]);
+    }
   });
   return looks;
 }
@@ -162,18 +66,20 @@ std::vector<Both> look_at_neighbours(const std::vector<Pose2>& poses, const Read
 class Neighbours {
  public:
   Neighbours(const std::vector<Pose2>& poses, const DriveOdometry& odometry, const ReadCloud& read,
-             const matching::MatcherConfig& config)
+             const matching::MatcherConfig& config, const KnownLook& known)
       : poses_(poses),
         odometry_(odometry),
-        looks_(look_at_neighbours(poses, read, config)),
-        looker_(poses, read, config),
+        read_(read),
+        config_(config),
+        looks_(look_at_neighbours(poses, read, config, known)),
+        looker_(read, config),
         part_(poses.size()) {
     std::iota(part_.begin(), part_.end(), std::size_t{0});
   }
 
   std::vector<PoseEdge> join() {
     for (std::size_t i = 1; i < poses_.size(); ++i)
-      add_both(looks_[i]) || join_with_more(i - 1, i) || join_by_odometry(i - 1, i);
+      add(i - 1, i, looks_[i]) || join_with_more(i - 1, i) || join_by_odometry(i - 1, i);
     join_parts();
     for (std::size_t i = 1; i < poses_.size(); ++i)
       if (part_[i - 1] != part_[i]) add(unmatched(i - 1, i));
@@ -186,10 +92,30 @@ class Neighbours {
     std::size_t a, b;
   };
 
-  bool join(std::size_t from, std::size_t to) { return add_both(looker_.look(from, to)); }
+  Pose2 expected(std::size_t from, std::size_t to) const {
+    return poses_[from].inverse() * poses_[to];
+  }
+
+  bool join(std::size_t from, std::size_t to) {
+    return add(from, to, looker_.look(from, to, poses_[from], poses_[to]));
+  }
 
   bool join_with_more(std::size_t from, std::size_t to) {
-    return add_both(looker_.look_with_more(from, to));
+    NeighbourLook look = no_look_yet(poses_[from], poses_[to]);
+    look.there = matched_with_more(from, to);
+    look.back = matched_with_more(to, from);
+    return add(from, to, look);
+  }
+
+  // A scan in the map of several on the other side of a step, as they are mapped.
+  std::optional<UncertainPose> matched_with_more(std::size_t from, std::size_t to) {
+    LocalMap map(config_);
+    for (std::size_t i = 0; i < kMore; ++i) {
+      const std::size_t next = from < to ? from - i : from + i;
+      if (next >= poses_.size()) break;
+      map.add(read_(next), expected(from, next));
+    }
+    return looker_.match(to, map, expected(from, to));
   }
 
   bool join_by_odometry(std::size_t from, std::size_t to) {
@@ -197,11 +123,12 @@ class Neighbours {
     return told && add({from, to, *told});
   }
 
-  bool add_both(const Both& looks) {
-    const auto& [there, back] = looks;
+  bool add(std::size_t from, std::size_t to, const NeighbourLook& look) {
+    const auto &there = look.there, &back = look.back;
     if (!there && !back) return false;
-    PoseEdge edge = there ? *there : reversed(*back);
-    if (there && back) edge.T_from_to = mean_of(edge.T_from_to, reversed(*back).T_from_to);
+    PoseEdge edge = there ? PoseEdge{from, to, *there} : reversed({to, from, *back});
+    if (there && back)
+      edge.T_from_to = mean_of(edge.T_from_to, reversed({to, from, *back}).T_from_to);
     const Pose2& motion = edge.T_from_to.pose;
     edge.T_from_to.covariance += (1.0 + distance_m(motion, {})) * variances(kDrift_m, kDrift_rad);
     edge.T_from_to = with_odometry(edge.T_from_to, odometry_step(odometry_, edge.from, edge.to));
@@ -209,7 +136,7 @@ class Neighbours {
   }
 
   PoseEdge unmatched(std::size_t from, std::size_t to) const {
-    UncertainPose motion = looker_.as_mapped(from, to);
+    UncertainPose motion = as_mapped(expected(from, to));
     motion.covariance = variances(
         kUnmatched_m + kUnmatchedShare * distance_m(poses_[from], poses_[to]), kUnmatched_rad);
     return {from, to, motion};
@@ -243,8 +170,10 @@ class Neighbours {
 
   const std::vector<Pose2>& poses_;
   const DriveOdometry& odometry_;
-  const std::vector<Both> looks_;
-  Looker looker_;
+  const ReadCloud& read_;
+  const matching::MatcherConfig& config_;
+  const std::vector<NeighbourLook> looks_;
+  NeighbourLooker looker_;
   // Which part of the drive each keyframe is in, by the number of one of them.
   std::vector<std::size_t> part_;
   std::vector<PoseEdge> edges_;
@@ -254,8 +183,9 @@ class Neighbours {
 
 std::vector<PoseEdge> join_neighbours(const std::vector<Pose2>& poses,
                                       const DriveOdometry& odometry, const ReadCloud& read,
-                                      const matching::MatcherConfig& config) {
-  return in_tree_order(Neighbours(poses, odometry, read, config).join());
+                                      const matching::MatcherConfig& config,
+                                      const KnownLook& known) {
+  return in_tree_order(Neighbours(poses, odometry, read, config, known).join());
 }
 
 }  // namespace voxlist::mapping

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "voxlist/mapping/graph/pose_edge.h"
-#include "voxlist/mapping/loops/local_map.h"
+#include "voxlist/mapping/loops/neighbour_look.h"
 #include "voxlist/mapping/loops/odometry_step.h"
 
 namespace voxlist::mapping {
@@ -11,9 +11,11 @@ namespace voxlist::mapping {
 /// The drive's own way: what joins the keyframes of a map, whose poses are about right, to a tree.
 /// Each is matched with the one before, and odometry tells what the match does not; where a drive
 /// hangs together otherwise, the nearest ones that match join its parts; and what no match joins
-/// stands as the map has it, and is not sure of that. In the order that PoseTree wants.
+/// stands as the map has it, and is not sure of that. In the order that PoseTree wants. Looks that
+/// are `known`, where the poses say the same, are not taken again.
 std::vector<PoseEdge> join_neighbours(const std::vector<Pose2>& poses,
                                       const DriveOdometry& odometry, const ReadCloud& read,
-                                      const matching::MatcherConfig& config);
+                                      const matching::MatcherConfig& config,
+                                      const KnownLook& known = {});
 
 }  // namespace voxlist::mapping

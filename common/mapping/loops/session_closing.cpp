@@ -57,7 +57,7 @@ Order order_of_drive(const MapKeyframes& keyframes) {
 }
 
 SessionClosing close_sessions(const MapKeyframes& keyframes, const ReadCloud& read,
-                              const matching::MatcherConfig& config) {
+                              const matching::MatcherConfig& config, const KnownLook& known) {
   const Order order = order_of_drive(keyframes);
   std::vector<Pose2> poses;
   DriveOdometry odometry;
@@ -65,8 +65,13 @@ SessionClosing close_sessions(const MapKeyframes& keyframes, const ReadCloud& re
     poses.push_back(keyframes[i].T_map_keyframe);
     odometry.push_back(keyframes[i].T_odom_keyframe);
   }
+  KnownLook known_in_drive;
+  if (known)
+    known_in_drive = [&](std::size_t from, std::size_t to) {
+      return known(order[from], order[to]);
+    };
   const MapClosing closed = close_map(
-      poses, odometry, [&](std::size_t i) { return read(order[i]); }, config);
+      poses, odometry, [&](std::size_t i) { return read(order[i]); }, config, known_in_drive);
   SessionClosing closing;
   closing.loops = closed.loops;
   closing.refused = closed.refused;

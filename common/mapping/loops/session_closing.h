@@ -24,9 +24,10 @@ struct SessionClosing {
 std::vector<std::size_t> order_of_drive(const MapKeyframes& keyframes);
 
 /// Closes the loops of a map, all sessions taken as one drive. The first keyframe stays. `read`
-/// takes a keyframe's place in `keyframes`.
+/// and `known` (looks that were taken before, as close_map() has them) take keyframes' places in
+/// `keyframes`.
 SessionClosing close_sessions(const MapKeyframes& keyframes, const ReadCloud& read,
-                              const matching::MatcherConfig& config);
+                              const matching::MatcherConfig& config, const KnownLook& known = {});
 
 /// A keyframe's cloud as a level robot has it: poses are searched for in the plane.
 Cloud level_cloud(const Keyframe& keyframe);

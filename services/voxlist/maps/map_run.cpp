@@ -75,11 +75,20 @@ bool same(const Pose2& a, const Pose2& b) {
 
 MapRun::MapRun(const matching::LocaliserConfig& localiser, const mapping::MapBuilderConfig& mapper,
                mapping::KeyframeSpool& spool)
-    : localiser_(localiser), mapper_(mapper), spool_(spool), goes_on_(false), now_(&new_piece()) {}
+    : localiser_(localiser),
+      mapper_(mapper),
+      spool_(spool),
+      goes_on_(false),
+      look_ahead_(spool, localiser.matcher, localiser.threads != 1),
+      now_(&new_piece()) {}
 
 MapRun::MapRun(const matching::LocaliserConfig& localiser, const mapping::MapBuilderConfig& mapper,
                mapping::KeyframeSpool& spool, mapping::MapBuilder map, Piece::Keep keep)
-    : localiser_(localiser), mapper_(mapper), spool_(spool), goes_on_(true) {
+    : localiser_(localiser),
+      mapper_(mapper),
+      spool_(spool),
+      goes_on_(true),
+      look_ahead_(spool, localiser.matcher, false) {
   pieces_.push_back(std::make_unique<Piece>(localiser_, std::move(map), spool_, std::move(keep)));
   now_ = pieces_.front().get();
 }
@@ -113,7 +122,7 @@ void MapRun::finish() {
   place_loose();
   if (goes_on_ || stop_requested()) return;
   matching::ThreadArena(localiser_.threads).run([this] {
-    closing_ = close_piece(map(), spool_, localiser_.matcher);
+    closing_ = close_piece(map(), spool_, localiser_.matcher, look_ahead_.finish());
   });
 }
 
@@ -255,6 +264,8 @@ void MapRun::take(const Scan& scan, const Localisation& found) {
   if (is_second && left_ && !is_confirmed(*left_)) loosen(*left_);
   if (is_second) left_ = nullptr;
   if (!is_keyframe) return;
+  if (const auto& all = now_->keyframes(); all.size() > 1)
+    look_ahead_.add(all[all.size() - 2], all.back());
   look_back();
   search_elsewhere(scan);
 }

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "services/voxlist/maps/ahead/look_ahead.h"
 #include "services/voxlist/maps/odometry_trail.h"
 #include "services/voxlist/maps/piece.h"
 #include "services/voxlist/maps/piece_closing.h"
@@ -104,6 +105,7 @@ class MapRun {
   const mapping::MapBuilderConfig mapper_;
   mapping::KeyframeSpool& spool_;
   const bool goes_on_;
+  LookAhead look_ahead_;
   std::vector<std::unique_ptr<Piece>> pieces_;
   // The piece that mapping goes on in.
   Piece* now_ = nullptr;

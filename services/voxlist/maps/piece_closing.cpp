@@ -20,10 +20,15 @@ Cloud level_cloud(mapping::KeyframeSpool& spool, const mapping::SpooledKeyframe&
 }
 
 PieceClosing close_piece(Piece& piece, mapping::KeyframeSpool& spool,
-                         const matching::MatcherConfig& config) {
+                         const matching::MatcherConfig& config, const LookAhead::Looks& looks) {
+  const auto& keyframes = piece.keyframes();
+  const auto known = [&](std::size_t from, std::size_t to) {
+    const auto at = looks.find({keyframes[from].index, keyframes[to].index});
+    return at == looks.end() ? nullptr : &at->second;
+  };
   const mapping::SessionClosing closed = mapping::close_sessions(
-      keyframes_of(piece), [&](std::size_t i) { return level_cloud(spool, piece.keyframes()[i]); },
-      config);
+      keyframes_of(piece), [&](std::size_t i) { return level_cloud(spool, keyframes[i]); }, config,
+      known);
   if (closed.moves) piece.move_keyframes(closed.poses);
   return {closed.loops, closed.refused, closed.moved_m};
 }

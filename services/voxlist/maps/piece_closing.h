@@ -1,5 +1,6 @@
 #pragma once
 
+#include "services/voxlist/maps/ahead/look_ahead.h"
 #include "services/voxlist/maps/piece.h"
 #include "voxlist/mapping/loops/session_closing.h"
 
@@ -17,8 +18,9 @@ Cloud level_cloud(mapping::KeyframeSpool& spool, const mapping::SpooledKeyframe&
 
 /// Closes the loops of a piece, whose keyframes are all in the spool: where its drive came back to
 /// ground of long before, its keyframes go where all scans agree, and its map is made anew. The
-/// keyframe that is the piece's origin stays.
+/// keyframe that is the piece's origin stays. `looks`: of its keyframes, taken before; the answer
+/// is the same without them.
 PieceClosing close_piece(Piece& piece, mapping::KeyframeSpool& spool,
-                         const matching::MatcherConfig& config);
+                         const matching::MatcherConfig& config, const LookAhead::Looks& looks = {});
 
 }  // namespace voxlist::desk
