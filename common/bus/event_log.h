@@ -62,6 +62,9 @@ class EventLogReader {
   std::vector<Part>::const_iterator part_at(std::int64_t position) const;
   std::int64_t end_of(std::vector<Part>::const_iterator part) const;
   bool read(std::int64_t position, void* to, std::size_t bytes) const;
+  bool read_from_files(std::int64_t position, void* to, std::size_t bytes) const;
+  bool is_read_ahead(std::int64_t position, std::size_t bytes) const;
+  void read_ahead(std::int64_t position) const;
   std::optional<Header> read_header(std::int64_t position) const;
   bool ends_well(std::int64_t body, std::int64_t end) const;
   std::int64_t find_sync(std::int64_t from, std::int64_t limit) const;
@@ -71,6 +74,9 @@ class EventLogReader {
   std::vector<std::string> missing_;
   std::int64_t size_ = 0;
   std::int64_t position_ = 0;
+  // What was read ahead, and from where on.
+  mutable std::vector<std::uint8_t> ahead_;
+  mutable std::int64_t ahead_at_ = 0;
   std::int64_t damaged_ = 0;
   std::int64_t skipped_ = 0;
 };

@@ -1,6 +1,8 @@
 #include "voxlist/matching/surfaces/surfels.h"
 
+#include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "voxlist/matching/surfaces/surfel_fit.h"
 #include "voxlist/system/check.h"
@@ -14,20 +16,18 @@ std::size_t most_voxels(std::size_t level, const SurfelConfig& config) {
   return static_cast<std::size_t>(2 * config.min_voxels) << (2 * level);
 }
 
-// The voxels of a cube of blocks, counted from its lowest.
-std::vector<Voxel> voxels_of(const VoxelMap& map, const Voxel& first, std::int32_t blocks) {
-  std::vector<Voxel> voxels;
-  voxels.reserve(512);
-  for (std::int32_t z = 0; z < blocks; ++z) {
-    for (std::int32_t y = 0; y < blocks; ++y) {
-      for (std::int32_t x = 0; x < blocks; ++x) {
-        const VoxelBlock* block = map.find_block({first.x + x, first.y + y, first.z + z});
-        if (block)
-          VoxelMap::visit_block({x, y, z}, *block, [&](const Voxel& v) { voxels.push_back(v); });
-      }
-    }
-  }
-  return voxels;
+Voxel divided(const Voxel& v, std::int32_t by) {
+  return {floor_div(v.x, by), floor_div(v.y, by), floor_div(v.z, by)};
+}
+
+Voxel difference(const Voxel& a, const Voxel& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+
+bool is_below(const Voxel& v, std::int32_t edge) {
+  return std::min({v.x, v.y, v.z}) >= 0 && std::max({v.x, v.y, v.z}) < edge;
+}
+
+bool comes_before(const Voxel& a, const Voxel& b) {
+  return std::tie(a.z, a.y, a.x) < std::tie(b.z, b.y, b.x);
 }
 
 }  // namespace
@@ -59,13 +59,66 @@ SurfelMap::Cube& SurfelMap::cube_at(std::size_t level, const Voxel& position) co
   return cube;
 }
 
+// The voxels of a cube, counted from its lowest, block by block.
+std::vector<Voxel> SurfelMap::voxels_of(std::size_t level, const Voxel& position) const {
+  std::vector<Voxel> voxels;
+  voxels.reserve(512);
+  const auto take = [&](const Voxel& at, const VoxelBlock& bits) {
+    VoxelMap::visit_block(at, bits, [&](const Voxel& v) { voxels.push_back(v); });
+  };
+  level == 0 ? visit_small(position, take) : visit_large(level, position, take);
+  return voxels;
+}
+
+// Calls visit(block, counted from the cube's first, its voxels).
+template <class Visit>
+void SurfelMap::visit_small(const Voxel& position, const Visit& visit) const {
+  const std::int32_t edge = levels_.front().blocks;
+  for (std::int32_t z = 0; z < edge; ++z)
+    for (std::int32_t y = 0; y < edge; ++y)
+      for (std::int32_t x = 0; x < edge; ++x)
+        if (const VoxelBlock* block = map_.occupied.find_block(
+                {position.x * edge + x, position.y * edge + y, position.z * edge + z}))
+          visit(Voxel{x, y, z}, *block);
+}
+
+// The same in the same order, for cubes that are mostly empty.
+template <class Visit>
+void SurfelMap::visit_large(std::size_t level, const Voxel& position, const Visit& visit) const {
+  const std::int32_t edge = levels_[level].blocks;
+  const Voxel first{position.x * edge, position.y * edge, position.z * edge};
+  list_new_blocks();
+  const std::uint32_t large = large_cubes_.find(divided(first, levels_.back().blocks));
+  if (large == Numbering<Voxel>::kNone) return;
+  for (const std::uint32_t number : blocks_in_[large]) {
+    const Voxel at = difference(map_.occupied.block_position(number), first);
+    if (is_below(at, edge)) visit(at, map_.occupied.block(number));
+  }
+}
+
+// A map numbers its blocks as they come.
+void SurfelMap::list_new_blocks() const {
+  const VoxelMap& map = map_.occupied;
+  const auto before = [&](std::uint32_t a, std::uint32_t b) {
+    return comes_before(map.block_position(a), map.block_position(b));
+  };
+  for (; listed_ < map.block_count(); ++listed_) {
+    const auto number = static_cast<std::uint32_t>(listed_);
+    const std::uint32_t large =
+        large_cubes_.number(divided(map.block_position(number), levels_.back().blocks));
+    if (large == blocks_in_.size()) blocks_in_.emplace_back();
+    std::vector<std::uint32_t>& blocks = blocks_in_[large];
+    blocks.insert(std::upper_bound(blocks.begin(), blocks.end(), number, before), number);
+  }
+}
+
 void SurfelMap::fit(std::size_t level, const Voxel& position, Cube& cube) const {
   VOXLIST_CHECK(map_.revision() == revision_,
                 "the map has changed and map_changed() was not called");
   const std::int32_t blocks = levels_[level].blocks;
-  const Voxel first{position.x * blocks, position.y * blocks, position.z * blocks};
-  const Voxel lowest{first.x * kBlockEdge, first.y * kBlockEdge, first.z * kBlockEdge};
-  const std::vector<Voxel> voxels = voxels_of(map_.occupied, first, blocks);
+  const std::int32_t edge = blocks * kBlockEdge;
+  const Voxel lowest{position.x * edge, position.y * edge, position.z * edge};
+  const std::vector<Voxel> voxels = voxels_of(level, position);
   cube.fitted = true;
   cube.count = 0;
   cube.speaker = &cube;

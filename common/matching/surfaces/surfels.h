@@ -111,6 +111,12 @@ class SurfelMap {
   };
 
   Cube& cube_at(std::size_t level, const Voxel& position) const;
+  std::vector<Voxel> voxels_of(std::size_t level, const Voxel& position) const;
+  template <class Visit>
+  void visit_small(const Voxel& position, const Visit& visit) const;
+  template <class Visit>
+  void visit_large(std::size_t level, const Voxel& position, const Visit& visit) const;
+  void list_new_blocks() const;
   void fit(std::size_t level, const Voxel& position, Cube& cube) const;
 
   const OccupancyMap& map_;
@@ -118,6 +124,11 @@ class SurfelMap {
   double cubes_per_m_;    // smallest ones
   MapRevision revision_;  // of the map that the cubes were fitted in
   mutable std::array<Level, 3> levels_;
+  // The map's blocks by the largest cube that they lie in: the numbers of each cube's, ascending by
+  // layer, row and column. Larger cubes are mostly empty.
+  mutable Numbering<Voxel> large_cubes_;
+  mutable std::vector<std::vector<std::uint32_t>> blocks_in_;
+  mutable std::size_t listed_ = 0;
 };
 
 inline const Surfel* SurfelMap::nearest(const Cube& cube, const Eigen::Vector3d& point,
