@@ -127,11 +127,11 @@ int map(const MapOptions& options, Console& console) {
   MapRun run(settings.localiser, settings.mapper, spool);
   const RunFigures figures = make_map(options, input, run, console);
   const VoxelMap& voxels = run.builder().map().occupied;
-  files.write_keyframes(spool, run.keyframes(), voxels);
-  // The picture is drawn while the OctoMap is made.
+  // The picture is drawn while keyframes are written and the OctoMap is made.
   const int threads = settings.localiser.threads;
   auto views = std::async(threads == 1 ? std::launch::deferred : std::launch::async,
                           [&] { files.write_views(voxels, run.trajectory()); });
+  files.write_keyframes(spool, run.keyframes(), voxels);
   tell(options, run, figures, console);
   if (figures.interrupted) console.warn("interrupted: the map ends there");
   files.write_octomap(settings.octomap, threads, !options.making.no_octomap, console);
