@@ -1,6 +1,9 @@
 #include "voxlist/matching/localisation/levelling.h"
 
+#include <algorithm>
 #include <cmath>
+
+#include "voxlist/matching/localisation/standing_heights.h"
 
 namespace voxlist::matching {
 namespace {
@@ -14,14 +17,19 @@ constexpr std::int32_t kOneOf = 3;
 // A search finds what is lifted by less than this (m).
 constexpr double kSameHeight_m = 0.1;
 
-// What is about a place of the map, in that place's frame.
-Cloud cloud_about(const VoxelMap& map, const Pose2& place) {
-  const Pose3 T_place_map = to_pose3(place).inverse();
+// Of a floor that a robot may stand on, so much (m) below its base and above is looked at: no other
+// floor.
+constexpr double kBelow_m = 1.5, kAbove_m = 1.0;
+
+// What is about a place of the map at a height, in that place's frame.
+Cloud cloud_about(const VoxelMap& map, const Pose2& place, double height_m) {
+  const Pose3 T_place_map = to_pose3(place, {height_m, 0.0, 0.0}).inverse();
   Cloud cloud;
   map.for_each_voxel([&](const Voxel& voxel) {
     if ((voxel.x & kOneOf) != 0 || (voxel.y & kOneOf) != 0) return;
     const Eigen::Vector3d p = T_place_map * center(voxel, map.resolution_m());
-    if (p.head<2>().norm() < kNear_m) cloud.points.push_back(p.cast<float>());
+    if (p.z() < -kBelow_m || p.z() > kAbove_m || p.head<2>().norm() >= kNear_m) return;
+    cloud.points.push_back(p.cast<float>());
   });
   cloud.origins.assign(cloud.points.size(), {0.0F, 0.0F, kSeenFrom_m});
   return cloud;
@@ -50,11 +58,16 @@ std::vector<Tilt> Levelling::guesses(const KnownTilt& known) const {
 }
 
 std::vector<Tilt> Levelling::guesses_anywhere(const KnownTilt& known) const {
-  std::vector<Tilt> guesses{of_origin(known)};
-  const double z_m = known.floor && floor_m_ ? *floor_m_ + known.floor->level.z_m : 0.0;
-  if (std::abs(z_m) < kSameHeight_m) return guesses;
-  guesses.push_back(guesses.front());
-  guesses.back().z_m = z_m;
+  const Tilt level = of_origin(known);
+  // How high base is above the floor: as the cloud shows it, or as it was.
+  const double above_m = known.floor ? known.floor->level.z_m : -floor_m_.value_or(0.0);
+  std::vector<Tilt> guesses;
+  for (const double floor_m : floors_m_)
+    guesses.push_back({floor_m + above_m, level.roll_rad, level.pitch_rad});
+  const bool lists_origin = std::any_of(guesses.begin(), guesses.end(), [](const Tilt& guess) {
+    return std::abs(guess.z_m) < kSameHeight_m;
+  });
+  if (!lists_origin) guesses.push_back(level);
   return guesses;
 }
 
@@ -64,16 +77,22 @@ void Levelling::learn(const Tilt& tilt, const std::optional<Floor>& floor) {
 }
 
 void Levelling::look_at(const OccupancyMap& map) {
-  if (floor_m_ || looked_at_map_) return;
-  looked_at_map_ = true;
-  if (const auto floor = find_floor(cloud_about(map.occupied, {}))) floor_m_ = floor->height_m();
+  if (looked_at_ == map.revision()) return;
+  const bool is_first = !looked_at_;
+  looked_at_ = map.revision();
+  floors_m_ = standing_heights(map);
+  if (floor_m_ || !is_first) return;
+  if (const auto floor = find_floor(cloud_about(map.occupied, {}, 0.0)))
+    floor_m_ = floor->height_m();
 }
 
-std::optional<Tilt> floor_on_floor(const OccupancyMap& map, const Pose2& place,
+std::optional<Tilt> floor_on_floor(const OccupancyMap& map, const Pose2& place, double height_m,
                                    const Floor& floor) {
-  const auto below = find_floor(cloud_about(map.occupied, place));
+  const auto below = find_floor(cloud_about(map.occupied, place, height_m));
   if (!below) return std::nullopt;
-  return tilt_of(to_level(below->level).inverse() * to_level(floor.level));
+  Tilt tilt = tilt_of(to_level(below->level).inverse() * to_level(floor.level));
+  tilt.z_m += height_m;
+  return tilt;
 }
 
 }  // namespace voxlist::matching

@@ -23,8 +23,12 @@ class Levelling {
   /// What the tilt may be; at least one. Odometry's comes before all others.
   std::vector<Tilt> guesses(const KnownTilt& known) const;
 
-  /// The same of a robot that may be anywhere: at the height of the map's floor, or of its origin.
+  /// The same of a robot that may be anywhere: on each floor of the map that was looked at, or at
+  /// its origin's height.
   std::vector<Tilt> guesses_anywhere(const KnownTilt& known) const;
+
+  /// The tilt of the last cloud, as far as one is known.
+  Tilt last() const { return last_.value_or(Tilt{}); }
 
   /// The cloud that begins a map is made level; its base is at height 0.
   static Tilt of_origin(const KnownTilt& known);
@@ -35,18 +39,22 @@ class Levelling {
   /// The robot may have been carried: what is known of the last cloud says nothing of the next.
   void forget() { last_.reset(); }
 
-  /// The map's floor, where its origin stands, as far as nothing else is known of it.
+  /// The map's floors, and the one on which its origin stands as far as nothing else is known of
+  /// it.
   void look_at(const OccupancyMap& map);
 
  private:
   std::optional<Tilt> last_;
-  // Height of the map's floor (m).
+  // Height of the floor (m) on which the robot was last, or the map's origin stands.
   std::optional<double> floor_m_;
-  bool looked_at_map_ = false;
+  // Of all the map's floors, as they were at that revision.
+  std::vector<double> floors_m_;
+  std::optional<MapRevision> looked_at_;
 };
 
-/// The tilt that lays a cloud's floor onto the map's about a place; nothing where the map shows no
-/// floor there. About 5 ms.
-std::optional<Tilt> floor_on_floor(const OccupancyMap& map, const Pose2& place, const Floor& floor);
+/// The tilt that lays a cloud's floor onto the map's about a place and a height (m) there; nothing
+/// where the map shows no floor there. About 5 ms.
+std::optional<Tilt> floor_on_floor(const OccupancyMap& map, const Pose2& place, double height_m,
+                                   const Floor& floor);
 
 }  // namespace voxlist::matching

@@ -118,13 +118,22 @@ Matcher& Localiser::matcher() {
 
 Localisation Localiser::localise(const Cloud& cloud, const std::optional<Pose2>& T_odom_base,
                                  const std::optional<Tilt>& odometry_tilt) {
+  const std::optional<Pose2> T_level_base = seen_from_above(T_odom_base, odometry_tilt);
   std::optional<Pose2> expected;
-  if (const auto predicted = predict(cloud.utime_us, T_odom_base)) expected = predicted->pose;
+  if (track_) expected = track_->predict(cloud.utime_us, T_level_base).pose;
   Localisation result = answered(cloud, expected, odometry_tilt, [&](const PreparedScan& scan) {
-    return localise(scan, T_odom_base);
+    return localise(scan, T_level_base);
   });
   if (result.tracking()) levelling_.learn(result.modes.front().tilt, result.floor);
+  if (T_odom_base) level_odometry_.note(*T_odom_base, odometry_tilt.value_or(levelling_.last()));
   return result;
+}
+
+// Planar odometry is as it is.
+std::optional<Pose2> Localiser::seen_from_above(const std::optional<Pose2>& T_odom_base,
+                                                const std::optional<Tilt>& odometry_tilt) const {
+  if (!T_odom_base || config_.tilt == TiltUse::kPlanar) return T_odom_base;
+  return level_odometry_.seen_from_above(*T_odom_base, odometry_tilt.value_or(levelling_.last()));
 }
 
 Localisation Localiser::answered(const Cloud& cloud, const std::optional<Pose2>& expected,
@@ -153,7 +162,9 @@ Localisation Localiser::locate_level(const Cloud& cloud, const KnownTilt& known,
 
 std::optional<UncertainPose> Localiser::predict(std::int64_t utime_us,
                                                 const std::optional<Pose2>& T_odom_base) const {
-  return track_ ? std::optional(track_->predict(utime_us, T_odom_base)) : std::nullopt;
+  return track_
+             ? std::optional(track_->predict(utime_us, seen_from_above(T_odom_base, std::nullopt)))
+             : std::nullopt;
 }
 
 Localisation Localiser::locate(const Cloud& cloud) {
@@ -185,6 +196,7 @@ void Localiser::take_over(Localiser& other, const Pose2& T_this_other) {
   search_.reset();
   odometry_check_.clear();
   levelling_ = other.levelling_;
+  level_odometry_ = other.level_odometry_;
   if (track_) track_->change_map(T_this_other);
 }
 

@@ -10,6 +10,7 @@
 #include "voxlist/matching/localisation/levelling.h"
 #include "voxlist/matching/localisation/localisation.h"
 #include "voxlist/matching/localisation/thread_arena.h"
+#include "voxlist/matching/motion/level_odometry.h"
 #include "voxlist/voxels/occupancy_map.h"
 
 namespace voxlist::matching {
@@ -98,6 +99,8 @@ class Localiser {
 
  private:
   MotionLimits limits() const;
+  std::optional<Pose2> seen_from_above(const std::optional<Pose2>& T_odom_base,
+                                       const std::optional<Tilt>& odometry_tilt) const;
   // Drops what was made of the map when that has changed since.
   void follow_map();
   Matcher& matcher();
@@ -115,13 +118,21 @@ class Localiser {
   struct RefinedTilt {
     Tilt tilt;
     double inlier_ratio = 0.0;
+    bool is_near = false;  // to where it began
   };
+  bool stands_on_floor(const MatchPoints& points, const KnownTilt& known,
+                       const Localisation& found);
+  Localisation not_level(Localisation result);
   RefinedTilt refined_tilt(const MatchPoints& points, const Pose2& place, const Tilt& start);
   RefinedTilt tilt_by_modes(const MatchPoints& points, const KnownTilt& known,
                             const Localisation& found);
   Tilt expected_tilt(const MatchPoints& points, const KnownTilt& known, const Pose2& expected);
-  Tilt searched_tilt(const Cloud& cloud, const MatchPoints& points, const KnownTilt& known,
-                     const Locate& locate);
+  Localisation located_from(const Cloud& cloud, const MatchPoints& points, const Tilt& first,
+                            const Locate& locate);
+  std::vector<Tilt> searched_tilts(const Cloud& cloud, const MatchPoints& points,
+                                   const KnownTilt& known, const Locate& locate);
+  Localisation located_anywhere(const Cloud& cloud, const MatchPoints& points,
+                                const KnownTilt& known, const Locate& locate);
   Localisation answered(const Cloud& cloud, const std::optional<Pose2>& expected,
                         const std::optional<Tilt>& odometry_tilt, const Locate& locate);
   void begin_track(const PreparedScan& scan, const std::optional<Pose2>& T_odom_base,
@@ -139,6 +150,7 @@ class Localiser {
   std::unique_ptr<LostSearch> search_;
   OdometryCheck odometry_check_;
   Levelling levelling_;
+  LevelOdometry level_odometry_;
 };
 
 }  // namespace voxlist::matching

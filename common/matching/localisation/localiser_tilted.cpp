@@ -15,19 +15,45 @@ namespace {
 
 // A cloud is level enough when this (rad, m) is left of its tilt: far below what evidence forgives.
 constexpr double kLevel_rad = 0.2 * kRadPerDeg, kLevel_m = 0.02;
-// What floors and the last cloud may be wrong by (rad, m): surfaces that say more are the wrong
-// ones.
-constexpr double kFarthest_rad = 4.0 * kRadPerDeg, kFarthest_m = 0.3;
+// At the last time so much may be left (rad, m): what evidence forgives.
+constexpr double kAlmost_rad = 1.0 * kRadPerDeg, kAlmost_m = 0.1;
+// What floors and the last cloud may be wrong by (rad, m), where a ramp of 10 deg begins or ends
+// between two clouds: surfaces that say more are the wrong ones.
+constexpr double kFarthest_rad = 12.0 * kRadPerDeg, kFarthest_m = 0.3;
 // Most times that a cloud is located; two are usual where it has turned a good deal.
 constexpr int kMostTimes = 3;
 // Most places at which a cloud's tilt is asked for when nothing is expected.
 constexpr std::size_t kMostPlaces = 8;
+// Floors are rivals where so much of what fits the best one fits them, too; most that are asked.
+constexpr double kRivalRatio = 0.7;
+constexpr std::size_t kMostFloors = 4;
+// Two guesses are one when they differ by no more (rad, m).
+constexpr double kSameTilt_rad = 1.0 * kRadPerDeg, kSameTilt_m = 0.1;
+// A place is sure among those on all floors as it is among those on one (lost_search.cpp).
+constexpr double kSureAmongFloors = 0.996;
+// Points of a floor lie so near to its plane (m); so many of them are on the map's.
+constexpr double kThick_m = 0.06, kMost = 0.5;
+// Where that is not so, what was found has as probable a rival at another height.
+constexpr double kHeightUnknown = 0.5;
 // Points that choose between guesses.
 constexpr std::size_t kFewPoints = 400;
 
 bool are_near(const Tilt& a, const Tilt& b, double off_rad, double off_m) {
   return std::abs(a.z_m - b.z_m) < off_m && std::abs(a.roll_rad - b.roll_rad) < off_rad &&
          std::abs(a.pitch_rad - b.pitch_rad) < off_rad;
+}
+
+double odds_of(double probability) {
+  constexpr double kNearlyOne = 1.0 - 1e-9;
+  return probability / (1.0 - std::min(probability, kNearlyOne));
+}
+
+// What was found is right with this share of its probability.
+void doubt(double share, Localisation& found) {
+  found.confidence *= share;
+  for (PoseMode& mode : found.modes) mode.probability *= share;
+  if (found.tracking() && found.confidence < kSureAmongFloors)
+    found.state = LocalisationState::kAmbiguous;
 }
 
 }  // namespace
@@ -60,23 +86,97 @@ Localisation Localiser::locate_tilted(const Cloud& cloud, const KnownTilt& known
                                       const std::optional<Pose2>& expected, const Locate& locate) {
   if (map_.empty()) return locate_at(cloud, Levelling::of_origin(known), locate);
   const MatchPoints points = PreparedScan(cloud, config_.matcher.scan).spatial_points();
-  const Tilt first = expected ? expected_tilt(points, known, *expected)
-                              : searched_tilt(cloud, points, known, locate);
+  if (expected) {
+    Belief before = belief();
+    Localisation result =
+        located_from(cloud, points, expected_tilt(points, known, *expected), locate);
+    if (!result.searched_whole_map) return result;
+    believe(std::move(before));
+  }
+  return located_anywhere(cloud, points, known, locate);
+}
+
+// Locates a cloud that is tilted about like this.
+Localisation Localiser::located_from(const Cloud& cloud, const MatchPoints& points,
+                                     const Tilt& first, const Locate& locate) {
   Tilt tilt = first;
   for (int time = 1;; ++time) {
     Belief before = belief();
     Localisation result = locate_at(cloud, tilt, locate);
     if (result.modes.empty()) return result;
     PoseMode& best = result.modes.front();
-    const Tilt now = refined_tilt(points, best.T_map_base, tilt).tilt;
-    if (!are_near(now, first, kFarthest_rad, kFarthest_m)) return result;
-    if (time == kMostTimes || are_near(now, tilt, kLevel_rad, kLevel_m)) {
-      best.tilt = now;
-      return result;
-    }
+    const RefinedTilt now = refined_tilt(points, best.T_map_base, tilt);
+    const bool is_last = time == kMostTimes;
+    const bool is_level =
+        now.is_near && are_near(now.tilt, tilt, is_last ? kAlmost_rad : kLevel_rad,
+                                is_last ? kAlmost_m : kLevel_m);
+    if (is_level) best.tilt = now.tilt;
+    if (is_level) return result;
     believe(std::move(before));
-    tilt = now;
+    const bool goes_on = now.is_near && are_near(now.tilt, first, kFarthest_rad, kFarthest_m);
+    if (!goes_on || is_last) return not_level(std::move(result));
+    tilt = now.tilt;
   }
+}
+
+// Of the map's floors, each may be the one; what is found on one of them has its rivals on the
+// others.
+Localisation Localiser::located_anywhere(const Cloud& cloud, const MatchPoints& points,
+                                         const KnownTilt& known, const Locate& locate) {
+  const Belief before = belief();
+  Belief after;
+  Localisation best;
+  double odds = 0.0;
+  const auto copy = [](const Belief& belief) {
+    return Belief{belief.track ? std::make_unique<PoseTrack>(*belief.track) : nullptr,
+                  belief.search ? std::make_unique<LostSearch>(*belief.search) : nullptr,
+                  belief.odometry_check};
+  };
+  for (const Tilt& tilt : searched_tilts(cloud, points, known, locate)) {
+    believe(copy(before));
+    Localisation found = located_from(cloud, points, tilt, locate);
+    if (found.searched_whole_map && !stands_on_floor(points, known, found)) {
+      believe(copy(before));
+      doubt(kHeightUnknown, found);
+    }
+    odds += odds_of(found.confidence);
+    if (!best.modes.empty() && found.confidence <= best.confidence) continue;
+    best = std::move(found);
+    after = belief();
+  }
+  if (best.modes.empty()) return best;
+  // Of all that is probable on its floor, so much is so among all floors.
+  const double share = (1.0 + odds_of(best.confidence)) / (1.0 + odds);
+  const bool was_sure = best.tracking();
+  if (share < 1.0) doubt(share, best);
+  believe(was_sure && !best.tracking() ? copy(before) : std::move(after));
+  return best;
+}
+
+// Walls are the same at any height: a robot is at the height that was found where the floor that
+// it stands on is on the map's.
+bool Localiser::stands_on_floor(const MatchPoints& points, const KnownTilt& known,
+                                const Localisation& found) {
+  if (!known.floor || found.modes.empty()) return false;
+  const Pose3 T_level_base = to_level(known.floor->level);
+  MatchPoints floor;
+  for (std::size_t i = 0; i < points.points.size(); ++i) {
+    if (std::abs((T_level_base * points.points[i].cast<double>()).z()) > kThick_m) continue;
+    floor.points.push_back(points.points[i]);
+    if (!points.origins.empty()) floor.origins.push_back(points.origins[i]);
+  }
+  const PoseMode& best = found.modes.front();
+  const Pose3 T_map_base = to_pose3(best.T_map_base, best.tilt);
+  return matcher().refined_in_space(floor, T_map_base).inlier_ratio >= kMost;
+}
+
+// The cloud was located as if it were level, and the surfaces there say that it is not.
+Localisation Localiser::not_level(Localisation result) {
+  if (result.tracking()) result.state = LocalisationState::kAmbiguous;
+  result.confidence = 0.0;
+  for (PoseMode& mode : result.modes) mode.probability = 0.0;
+  if (track_) track_->doubt(0.0);
+  return result;
 }
 
 Localiser::RefinedTilt Localiser::refined_tilt(const MatchPoints& points, const Pose2& place,
@@ -84,7 +184,7 @@ Localiser::RefinedTilt Localiser::refined_tilt(const MatchPoints& points, const 
   const SpatialRefinement refined = matcher().refined_in_space(points, to_pose3(place, start));
   const Tilt now = tilt_of(refined.pose);
   const bool is_near = are_near(now, start, kFarthest_rad, kFarthest_m);
-  return {is_near ? now : start, is_near ? refined.inlier_ratio : 0.0};
+  return {is_near ? now : start, is_near ? refined.inlier_ratio : 0.0, is_near};
 }
 
 // Where the robot is expected, the map's surfaces choose among what is known.
@@ -92,7 +192,7 @@ Tilt Localiser::expected_tilt(const MatchPoints& points, const KnownTilt& known,
                               const Pose2& expected) {
   const std::vector<Tilt> guesses = levelling_.guesses(known);
   const MatchPoints few = some_of(points, kFewPoints);
-  RefinedTilt best{guesses.back(), 0.0};
+  RefinedTilt best{guesses.back()};
   for (const Tilt& guess : guesses) {
     const RefinedTilt now = refined_tilt(few, expected, guess);
     if (now.inlier_ratio > best.inlier_ratio) best = now;
@@ -100,19 +200,30 @@ Tilt Localiser::expected_tilt(const MatchPoints& points, const KnownTilt& known,
   return best.tilt;
 }
 
-// Where nothing is expected, the cloud is searched for at each height that it may have.
-Tilt Localiser::searched_tilt(const Cloud& cloud, const MatchPoints& points, const KnownTilt& known,
-                              const Locate& locate) {
+// Where nothing is expected, the cloud is searched for at each height that it may have; those come
+// first at which most of it then lies on surfaces.
+std::vector<Tilt> Localiser::searched_tilts(const Cloud& cloud, const MatchPoints& points,
+                                            const KnownTilt& known, const Locate& locate) {
   levelling_.look_at(map_);
-  RefinedTilt best;
+  std::vector<RefinedTilt> refined;
   for (const Tilt& guess : levelling_.guesses_anywhere(known)) {
     Belief before = belief();
     const Localisation found = locate_at(cloud, guess, locate);
     believe(std::move(before));
-    const RefinedTilt now = tilt_by_modes(points, known, found);
-    if (now.inlier_ratio > best.inlier_ratio) best = now;
+    refined.push_back(tilt_by_modes(points, known, found));
   }
-  return best.tilt;
+  std::stable_sort(refined.begin(), refined.end(), [](const RefinedTilt& a, const RefinedTilt& b) {
+    return a.inlier_ratio > b.inlier_ratio;
+  });
+  std::vector<Tilt> tilts;
+  for (const RefinedTilt& tilt : refined) {
+    const bool is_new = std::none_of(tilts.begin(), tilts.end(), [&](const Tilt& other) {
+      return are_near(tilt.tilt, other, kSameTilt_rad, kSameTilt_m);
+    });
+    const bool fits = tilt.inlier_ratio >= kRivalRatio * refined.front().inlier_ratio;
+    if (is_new && fits && tilts.size() < kMostFloors) tilts.push_back(tilt.tilt);
+  }
+  return tilts;
 }
 
 // At each of the likeliest places, the cloud's floor is laid onto the map's; where most points then
@@ -123,8 +234,9 @@ Localiser::RefinedTilt Localiser::tilt_by_modes(const MatchPoints& points, const
   RefinedTilt best;
   for (std::size_t i = 0; i < std::min(kMostPlaces, found.modes.size()); ++i) {
     const PoseMode& mode = found.modes[i];
-    const auto on_floor =
-        known.floor ? floor_on_floor(map_, mode.T_map_base, *known.floor) : std::nullopt;
+    const auto on_floor = known.floor
+                              ? floor_on_floor(map_, mode.T_map_base, mode.tilt.z_m, *known.floor)
+                              : std::nullopt;
     const RefinedTilt now = refined_tilt(few, mode.T_map_base, on_floor.value_or(mode.tilt));
     if (now.inlier_ratio > best.inlier_ratio) best = now;
   }

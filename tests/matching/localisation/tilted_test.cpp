@@ -8,17 +8,18 @@
 namespace voxlist::matching {
 namespace {
 
-const simulation::World& building() {
-  static const simulation::World world(simulation::make_building({.seed = 1}), {});
-  return world;
+const simulation::World& building(int seed) {
+  static const simulation::World first(simulation::make_building({.seed = 1}), {}),
+      second(simulation::make_building({.seed = 2}), {});
+  return seed == 1 ? first : second;
 }
 
 // A level scan, with more lines than the mirror scanner's: one second is not enough for a floor.
-Cloud scan_at(const Pose2& pose) {
+Cloud scan_at(const Pose2& pose, int seed = 1) {
   const simulation::Trajectory still(2.0, {pose});
   simulation::IdealSweepConfig config;
   config.lines_per_second = 200;
-  return simulation::scan_sweep(simulation::MirrorScanner(building(), still, {}, 1), still, 1.0,
+  return simulation::scan_sweep(simulation::MirrorScanner(building(seed), still, {}, 1), still, 1.0,
                                 config, 1);
 }
 
@@ -28,9 +29,14 @@ Cloud seen_tilted(const Pose2& pose, const Tilt& tilt) {
 
 Pose2 place(int i) { return {0.9 + 0.25 * i, 0.1, 0.3 + 0.05 * i}; }
 
+void add_floor(double height_m, int seed, OccupancyMap& map) {
+  for (int i = 0; i < 4; ++i)
+    add_scan(scan_at(place(i), seed), to_pose3(place(i), {height_m, 0.0, 0.0}), 100.0, map);
+}
+
 OccupancyMap map_of_places() {
   OccupancyMap map;
-  for (int i = 0; i < 4; ++i) add_scan(scan_at(place(i)), to_pose3(place(i)), 100.0, map);
+  add_floor(0.0, 1, map);
   return map;
 }
 
@@ -94,7 +100,7 @@ TEST(Tilted, OdometrysRollAndPitchLevelACloudThatShowsNoFloor) {
     }
     return rest;
   };
-  const Tilt tilt{0.05, 8.0 * kRadPerDeg, -8.0 * kRadPerDeg};
+  const Tilt tilt{0.05, 14.0 * kRadPerDeg, -14.0 * kRadPerDeg};
   const auto found_with = [&](TiltUse use) {
     Localiser localiser(map, config(use));
     EXPECT_TRUE(localiser.localise(scan_at(place(1))).tracking());
@@ -106,6 +112,39 @@ TEST(Tilted, OdometrysRollAndPitchLevelACloudThatShowsNoFloor) {
   ASSERT_TRUE(found.tracking());
   expect_near(found.modes.front(), place(2), tilt);
   EXPECT_FALSE(found_with(TiltUse::kRefine).tracking());
+}
+
+TEST(Tilted, ACloudIsFoundOnTheFloorThatItIsOf) {
+  OccupancyMap map = map_of_places();
+  add_floor(4.0, 2, map);
+  for (const auto& [height_m, seed] : {std::pair(0.0, 1), std::pair(4.0, 2)}) {
+    const Localisation found =
+        Localiser(map, config(TiltUse::kRefine)).locate(scan_at(place(1), seed));
+    ASSERT_FALSE(found.modes.empty());
+    expect_near(found.modes.front(), place(1), {height_m, 0.0, 0.0});
+  }
+}
+
+TEST(Tilted, OfFloorsThatLookAlikeNoneIsClaimed) {
+  OccupancyMap map = map_of_places();
+  EXPECT_TRUE(Localiser(map, config(TiltUse::kRefine)).locate(scan_at(place(1))).tracking());
+  add_floor(4.0, 1, map);
+  const Localisation found = Localiser(map, config(TiltUse::kRefine)).locate(scan_at(place(1)));
+  EXPECT_EQ(found.state, LocalisationState::kAmbiguous);
+  ASSERT_FALSE(found.modes.empty());
+  EXPECT_NEAR(found.modes.front().probability, 0.5, 0.01);
+}
+
+TEST(Tilted, TheMapsSurfacesCorrectWhatOdometrysPitchIsOffBy) {
+  const OccupancyMap map = map_of_places();
+  Localiser localiser(map, config(TiltUse::kOdometry));
+  ASSERT_TRUE(localiser.localise(scan_at(place(1)), std::nullopt, Tilt{}).tracking());
+  Cloud cloud = scan_at(place(2));
+  cloud.utime_us = 1'000'000;
+  const Tilt wrong{0.0, 0.0, 8.0 * kRadPerDeg};
+  const Localisation found = localiser.localise(cloud, std::nullopt, wrong);
+  ASSERT_TRUE(found.tracking());
+  expect_near(found.modes.front(), place(2), {});
 }
 
 TEST(Tilted, PosesArePlanarWhereTheyAreAskedToBe) {
