@@ -123,7 +123,7 @@ void walk(WireReader& in, const keyframe_t*) {
 void walk(WireReader& in, const localisation_t*) {
   in.skip(3 * kInt64 + kInt32);
   in.array(kPoseMode);
-  in.skip(2 * kDouble + 2 * kInt8 + kInt64 + kInt32);
+  in.skip(2 * kDouble + 2 * kInt8 + kInt64 + kInt32 + 3 * kDouble);
 }
 
 void walk(WireReader& in, const map_octree_t*) {
@@ -138,6 +138,7 @@ void walk(WireReader& in, const map_update_t*) {
   in.skip(5 * kInt64 + 2 * kInt32 + 2 * kDouble);
   in.array(kVoxelBlock);
   in.array(kVoxelBlock);
+  in.skip(kInt64 + 3 * kDouble);
 }
 
 void walk(WireReader& in, const mirror_state_t*) {

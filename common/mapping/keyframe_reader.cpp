@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <string>
 
-#include "voxlist/geometry/tilt.h"
 #include "voxlist/io/files/file.h"
 
 namespace voxlist::mapping {
@@ -48,11 +47,9 @@ void KeyframeReader::read_graph() {
   graph_ = GraphPoses(std::move(found.graph->keyframes));
 }
 
-// One that was not moved stays as it is in every bit.
 void KeyframeReader::place_by_graph(Keyframe& keyframe) {
   const auto found = graph_.next(keyframe.cloud.utime_us);
-  if (found && found->T_map_keyframe != to_pose2(keyframe.T_map_base))
-    keyframe.T_map_base = to_pose3(found->T_map_keyframe, tilt_of(keyframe.T_map_base));
+  if (found) stand_at(found->T_map_keyframe, keyframe.T_map_base);
 }
 
 void KeyframeReader::adopt(const FileHeader& header) {

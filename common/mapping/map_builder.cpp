@@ -57,7 +57,8 @@ bool is_moved(const Pose3& before, const std::optional<Pose3>& now) {
 
 MapBuilder::MapBuilder(const MapBuilderConfig& config)
     : config_(config),
-      map_({config.carve, config.min_range_m, config.max_range_m, config.count_free}) {}
+      map_(std::make_unique<CarvedMap>(CarvingConfig{config.carve, config.min_range_m,
+                                                     config.max_range_m, config.count_free})) {}
 
 bool MapBuilder::has_moved(const Pose2& pose) const {
   return distance_m(pose, looked_at_) >= config_.min_distance_m ||
@@ -74,13 +75,13 @@ bool MapBuilder::wants(const Cloud& cloud, const Pose2& pose, const Tilt& tilt) 
 // How much of a scan is news: the share of cells that it hits or passes and the map does not
 // know, or that of what it sees to be gone in what it hits, whichever is larger.
 double MapBuilder::news_of(const CarvedMap::Scan& scan) {
-  const ScanNews news = map_.news_of(scan);
-  const double doubted = static_cast<double>(map_.count_doubted(scan));
+  const ScanNews news = map_->news_of(scan);
+  const double doubted = static_cast<double>(map_->count_doubted(scan));
   return std::max(news.share(), doubted / static_cast<double>(std::max<std::size_t>(news.hit, 1)));
 }
 
 void MapBuilder::clear() {
-  map_.clear();
+  map_->clear();
   poses_.clear();
   changed_blocks_ = changed_free_space_ = {};
   looked_at_ = {};
@@ -91,7 +92,7 @@ void MapBuilder::move(const std::vector<std::optional<Pose3>>& poses, const Read
   for (std::size_t i = 0; i < poses_.size(); ++i) moved += is_moved(poses_[i].pose, poses[i]);
   if (moved == 0) return;
   2 * moved < poses_.size() ? recount(poses, read) : make_anew(poses, read);
-  changed_free_space_ = map_.free_space().follow();
+  changed_free_space_ = map_->free_space().follow();
   std::vector<StampedPose3> there;
   for (std::size_t i = 0; i < poses.size(); ++i)
     if (poses[i]) there.push_back({poses_[i].utime_us, *poses[i]});
@@ -100,9 +101,9 @@ void MapBuilder::move(const std::vector<std::optional<Pose3>>& poses, const Read
 }
 
 void MapBuilder::make_anew(const std::vector<std::optional<Pose3>>& poses, const ReadCloud& read) {
-  map_.clear();
+  map_->clear();
   for (std::size_t i = 0; i < poses.size(); ++i)
-    if (poses[i]) changed_blocks_ = map_.add({*poses[i], read(i)});
+    if (poses[i]) changed_blocks_ = map_->add({*poses[i], read(i)});
 }
 
 void MapBuilder::recount(const std::vector<std::optional<Pose3>>& poses, const ReadCloud& read) {
@@ -114,13 +115,21 @@ void MapBuilder::recount(const std::vector<std::optional<Pose3>>& poses, const R
     touched.push_back({i, &poses_[i].pose});
     if (now) touched.push_back({i, now});
   }
-  changed_blocks_ = map_.recount(Scans(touched, read), Scans(all, read));
+  changed_blocks_ = map_->recount(Scans(touched, read), Scans(all, read));
+}
+
+void MapBuilder::move_to(MapBuilder moved, const Pose2& T_new_old) {
+  changed_blocks_ = difference(map(), moved.map());
+  changed_free_space_ = difference(free_space(), moved.free_space());
+  map_ = std::move(moved.map_);
+  poses_ = std::move(moved.poses_);
+  looked_at_ = T_new_old * looked_at_;
 }
 
 Keyframe MapBuilder::add(Keyframe keyframe) {
   // As wants() has seen it: then its rays are not followed again.
-  changed_blocks_ = map_.add({keyframe.T_map_base, keyframe.cloud});
-  changed_free_space_ = map_.free_space().follow();
+  changed_blocks_ = map_->add({keyframe.T_map_base, keyframe.cloud});
+  changed_free_space_ = map_->free_space().follow();
   remove_near(keyframe.cloud, config_.min_range_m);
   looked_at_ = to_pose2(keyframe.T_map_base);
   poses_.push_back({keyframe.cloud.utime_us, keyframe.T_map_base});

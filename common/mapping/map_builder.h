@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -78,20 +79,24 @@ class MapBuilder {
   /// reach it.
   void move(const std::vector<std::optional<Pose3>>& poses, const ReadCloud& read);
 
+  /// Takes the map of another builder, whose keyframes are the same and stand elsewhere; then
+  /// what changed is what is otherwise. `T_new_old`: how the newest one was moved.
+  void move_to(MapBuilder moved, const Pose2& T_new_old);
+
   /// Begins an empty map.
   void clear();
 
-  const OccupancyMap& map() const { return map_.map(); }
+  const OccupancyMap& map() const { return map_->map(); }
 
   /// When and where each keyframe was taken, in their order.
   const std::vector<StampedPose3>& poses() const { return poses_; }
 
-  /// What the last add() or move() changed. Where move() made all anew, the revisions tell that
-  /// more has changed than the blocks do.
+  /// What the last add(), move() or move_to() changed. Where move() made all anew, the revisions
+  /// tell that more has changed than the blocks do.
   const ChangedBlocks& changed_blocks() const { return changed_blocks_; }
 
   /// Free and occupied cells as counted; empty unless count_free.
-  const OccupancyMap& free_space() const { return map_.free_space().map(); }
+  const OccupancyMap& free_space() const { return map_->free_space().map(); }
 
   /// What the last add() or move() changed there.
   const ChangedBlocks& changed_free_space() const { return changed_free_space_; }
@@ -103,7 +108,7 @@ class MapBuilder {
   void recount(const std::vector<std::optional<Pose3>>& poses, const ReadCloud& read);
 
   const MapBuilderConfig config_;
-  CarvedMap map_;
+  std::unique_ptr<CarvedMap> map_;
   std::vector<StampedPose3> poses_;
   ChangedBlocks changed_blocks_, changed_free_space_;
   Pose2 looked_at_;  // where the last cloud was added or looked at

@@ -41,6 +41,9 @@ class StoredKeyframes {
   /// Throws FileError when the disk cannot be read.
   std::optional<Keyframe> read(std::size_t index) { return reader_.at(places_[index]); }
 
+  /// Where each of them lies in the file.
+  const std::vector<KeyframePlace>& places() const { return places_; }
+
   /// One more was appended to the file.
   void add(const KeyframePlace& place) { places_.push_back(place); }
 

@@ -14,7 +14,28 @@ void sort_once(std::vector<Voxel>& blocks) {
   blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
 }
 
+// Blocks of one map that another one has otherwise, or not at all.
+void list_other(const VoxelMap& map, const VoxelMap& than, std::vector<Voxel>& blocks) {
+  for (std::size_t i = 0; i < map.block_count(); ++i) {
+    const VoxelBlock* other = than.find_block(map.block_position(i));
+    if (map.block(i) != (other ? *other : VoxelBlock{})) blocks.push_back(map.block_position(i));
+  }
+}
+
+std::vector<Voxel> difference(const VoxelMap& a, const VoxelMap& b) {
+  std::vector<Voxel> blocks;
+  list_other(a, b, blocks);
+  list_other(b, a, blocks);
+  sort_once(blocks);
+  return blocks;
+}
+
 }  // namespace
+
+ChangedBlocks difference(const OccupancyMap& from, const OccupancyMap& to) {
+  return {difference(from.occupied, to.occupied), difference(from.passed, to.passed),
+          from.revision(), to.revision()};
+}
 
 ChangedBlocks add_scan(const Cloud& cloud_base, const Pose3& T_map_base, double max_range_m,
                        OccupancyMap& map) {

@@ -39,6 +39,9 @@ struct ChangedBlocks {
   MapRevision from{}, to{};
 };
 
+/// What turns one map into another of the same resolution.
+ChangedBlocks difference(const OccupancyMap& from, const OccupancyMap& to);
+
 /// Adds a scan (in base) to a map: its points, and the way of its rays up to them. Points farther
 /// than max_range_m from where their rays started are left out, ray and all, and so are those
 /// outside the lattice.

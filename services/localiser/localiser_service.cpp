@@ -3,8 +3,10 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
+#include <utility>
 #include <voxlist/localisation_t.hpp>
 #include <voxlist/map_request_t.hpp>
 #include <voxlist/map_update_t.hpp>
@@ -121,8 +123,21 @@ void LocaliserService::take_map(const map_update_t& message) {
     if (origin_ && change.base_version == 0) change.base_version = bus::kWholeMap;
     const bus::AppliedChange applied = bus::apply(change, map_);
     if (!applied.replaced) localiser_.map_changed(applied.changed);
+    follow_move(change);
   }
   follow_mapper();
+}
+
+// Who knows one version and not the next does not know where it went.
+void LocaliserService::follow_move(const bus::MapChange& change) {
+  const std::int64_t before = std::exchange(moves_, change.moves).value_or(change.moves);
+  if (change.moves == before) return;
+  if (change.moves != before + 1) {
+    localiser_.forget();
+    return pose_output_.lose();
+  }
+  localiser_.move(change.T_new_old);
+  jump_ = change.T_new_old * jump_.value_or(Pose2{});
 }
 
 // Whether or not a map has come: what was made of another one is worth nothing.
@@ -132,6 +147,8 @@ void LocaliserService::follow_mapper() {
   map_id_ = mapper_.map_id();
   if (!mapper_.held()) map_ = {};
   origin_.reset();
+  moves_.reset();
+  jump_.reset();
   localiser_.forget();
   pose_output_.lose();
   unanswered_utime_us_.reset();
@@ -250,6 +267,9 @@ void LocaliserService::publish(const Answer& answer) {
   if (found.floor) tell(*found.floor);
   health_.count(std::string("state/") + name(found.state));
   tell(found.state);
+  if (jump_) std::ranges::copy(std::array{jump_->x_m, jump_->y_m, jump_->yaw_rad}, message.jump);
+  bus_.publish(bus::kLocalisation, message);
+  if (jump_) pose_output_.jump(*std::exchange(jump_, std::nullopt));
   unanswered_utime_us_.reset();
   unanswered_since_us_.reset();
   if (found.tracking()) {
@@ -260,7 +280,6 @@ void LocaliserService::publish(const Answer& answer) {
   } else {
     pose_output_.lose();
   }
-  bus_.publish(bus::kLocalisation, message);
 }
 
 matching::Localisation LocaliserService::locate(const Cloud& cloud,

@@ -84,6 +84,7 @@ class LocaliserService {
   void carry_on(const StampedPose2& T_odom_base);
   void take_map(const map_update_t& message);
   void follow_mapper();
+  void follow_move(const bus::MapChange& change);
   bool map_is_due(std::int64_t now_us);
   Answer localise(Waiting waiting);
   void decide(Answer answer, std::int64_t now_us);
@@ -108,6 +109,8 @@ class LocaliserService {
   matching::Localiser localiser_;
   service::MapFollower mapper_;
   std::optional<std::int64_t> map_id_;  // of the map that map_ is of
+  std::optional<std::int64_t> moves_;   // how often its keyframes were moved
+  std::optional<Pose2> jump_;           // by which POSE will jump, and nobody was told yet
   std::optional<Cloud> origin_;         // the cloud that defined the origin of an empty map
   service::CloudInput cloud_input_;
   service::ChannelCheck odometry_check_;

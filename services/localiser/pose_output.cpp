@@ -20,6 +20,11 @@ void PoseOutput::found(const Found& cloud, const UncertainPose& T_map_base, cons
   bus_.publish(bus::kMapOdom, bus::to_transform({cloud.utime_us, *T_map_odom_}));
 }
 
+void PoseOutput::jump(const Pose2& T_new_old) {
+  if (T_map_odom_) T_map_odom_ = T_new_old * *T_map_odom_;
+  if (last_pose_) last_pose_->pose = T_new_old * last_pose_->pose;
+}
+
 void PoseOutput::lose() {
   T_map_odom_.reset();
   last_pose_.reset();

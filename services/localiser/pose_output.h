@@ -30,6 +30,9 @@ class PoseOutput {
   void found(const Found& cloud, const UncertainPose& T_map_base, const Tilt& tilt,
              const std::optional<Pose2>& T_odom_base);
 
+  /// The map was moved: poses from now on are in the map since.
+  void jump(const Pose2& T_new_old);
+
   /// Nothing is sure any more, until the next call of found().
   void lose();
 

@@ -42,6 +42,7 @@ KeyframeKeeper::KeyframeKeeper(bus::Health& health, const std::filesystem::path&
 void KeyframeKeeper::open_store(const Take& restore) {
   store_ = std::make_unique<mapping::MapStore>(folder_, map_id_, restore);
   map_id_ = store_->map_id();
+  moves_ = store_->moves();
   health_.raise("damage", State::kWarning, store_->notice());
 }
 
@@ -59,6 +60,7 @@ void KeyframeKeeper::open_read_only(const Take& restore) {
     restore(std::move(*keyframe));
   }
   map_id_ = reader.map_id().value_or(map_id_);
+  moves_ = reader.moves();
   health_.raise("damage", State::kWarning, reader.warning());
   served_ = std::make_unique<mapping::StoredKeyframes>(file, std::move(places));
 }
@@ -68,7 +70,10 @@ std::size_t KeyframeKeeper::bytes(std::size_t index) const {
 }
 
 mapping::Keyframe KeyframeKeeper::read(std::size_t index) {
-  return index < on_disk() ? read_from_disk(index) : waiting_[index - on_disk()];
+  mapping::Keyframe keyframe =
+      index < on_disk() ? read_from_disk(index) : waiting_[index - on_disk()];
+  keyframe.T_map_base = poses_[index].pose;
+  return keyframe;
 }
 
 mapping::Keyframe KeyframeKeeper::read_from_disk(std::size_t index) {
@@ -83,6 +88,23 @@ mapping::Keyframe KeyframeKeeper::read_from_disk(std::size_t index) {
   pose_alone.cloud.utime_us = poses_[index].utime_us;
   pose_alone.T_map_base = poses_[index].pose;
   return pose_alone;
+}
+
+std::unique_ptr<mapping::StoredKeyframes> KeyframeKeeper::open_again() const try {
+  if (!store_ || !waiting_.empty()) return nullptr;
+  return std::make_unique<mapping::StoredKeyframes>(store_->folder() / mapping::kKeyframeFile,
+                                                    disk()->places());
+} catch (const io::FileError&) {
+  return nullptr;
+}
+
+bool KeyframeKeeper::write_graph(const mapping::StoredGraph& graph) try {
+  store_->write_graph(graph);
+  health_.clear("graph");
+  return true;
+} catch (const io::FileError& error) {
+  fail("graph", error.what());
+  return false;
 }
 
 void KeyframeKeeper::add(mapping::Keyframe keyframe) {

@@ -47,6 +47,16 @@ class KeyframeKeeper {
   /// A keyframe; its pose alone, and an error in HEALTH, when the disk has lost it.
   mapping::Keyframe read(std::size_t index);
 
+  /// The keyframes once more, for another thread; nothing where not all are on the disk.
+  std::unique_ptr<mapping::StoredKeyframes> open_again() const;
+
+  /// Writes where the keyframes stand now. False, and an error in HEALTH, when the disk does not
+  /// take it: then they stand where they stood.
+  bool write_graph(const mapping::StoredGraph& graph);
+
+  /// How often the folder's keyframes were moved before.
+  std::int64_t moves() const { return moves_; }
+
   /// Whether one more may be added: false once too many wait for the disk.
   bool has_room() const { return waiting_bytes_ < kMostWaiting; }
 
@@ -79,6 +89,7 @@ class KeyframeKeeper {
   const std::filesystem::path folder_;
   const std::vector<StampedPose3>& poses_;
   std::int64_t map_id_;
+  std::int64_t moves_ = 0;
   std::unique_ptr<mapping::MapStore> store_;          // of a map that is written
   std::unique_ptr<mapping::StoredKeyframes> served_;  // of one that is not
   std::deque<mapping::Keyframe> waiting_;             // after those on the disk

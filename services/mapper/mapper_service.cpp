@@ -13,6 +13,7 @@
 #include <voxlist/map_request_t.hpp>
 #include <voxlist/map_update_t.hpp>
 #include <voxlist/pointcloud_t.hpp>
+#include <voxlist/pose_t.hpp>
 
 #include "voxlist/bus/bus.h"
 #include "voxlist/bus/convert.h"
@@ -53,6 +54,9 @@ constexpr std::int64_t kRivalGone_us = 3 * kSecond_us;
 // reach.
 constexpr double kDrive_m = bus::kMapReach_m - 1000.0;
 
+// Loops are looked for so long (s) when the mapper stops: it is killed some time after.
+constexpr double kLastLoops_s = 5.0;
+
 // An id that no other map has: the time when it was begun.
 std::int64_t new_map_id() {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
@@ -91,13 +95,21 @@ MapperService::MapperService(bus::Bus& bus, bus::Health& health, const MapperSer
       keyframes_(health, in_state_folder(config.folder), config.extend, new_map_id(),
                  builder_.poses(),
                  [this](mapping::Keyframe keyframe) { restore(std::move(keyframe)); }),
+      loops_(health, config.close_loops, with_free_space(config.builder)),
+      moves_(keyframes_.moves()),
       map_id_(keyframes_.map_id()),
+      is_extending_(config.extend),
       cloud_input_(health),
       map_channel_(bus, health, sender_, bus::kMapUpdate),
       free_channel_(bus, health, sender_, bus::kFreeSpace) {
+  recall_graph();
   bus_.subscribe(bus::kCloud, [this](const pointcloud_t& message) { take_cloud(message); });
   bus_.subscribe(bus::kLocalisation,
                  [this](const localisation_t& message) { take_localisation(message); });
+  bus_.subscribe(bus::kOdometry, [this](const pose_t& message) {
+    if (const auto pose = bus::from_message(message))
+      odometry_.add({pose->utime_us, to_pose2(pose->pose)});
+  });
   bus_.subscribe(bus::kMapRequest, [this](const map_request_t& message) { take_request(message); });
   bus_.subscribe(bus::kHealth, [this](const health_t& message) { take_health(message); });
 }
@@ -139,7 +151,7 @@ void MapperService::decide(const localisation_t& message) {
   if (version() > 0) confirm();
   if (!takes(pose->tilt)) return;
   path_.add({message.utime, pose->planar}, pose->tilt);
-  if (!config_.extend || !keyframes_.has_room()) return;
+  if (!is_extending_ || !keyframes_.has_room()) return;
   if (!cloud) return health_.count("LOCALISATION/cloud_missing");
   if (builder_.wants(*cloud, pose->planar, pose->tilt))
     add(std::move(*cloud), to_pose3(pose->planar, pose->tilt));
@@ -172,8 +184,36 @@ std::optional<Cloud> MapperService::take_waiting_cloud(std::int64_t utime_us) {
 void MapperService::add(Cloud cloud, const Pose3& pose) {
   keyframes_.add(builder_.add({pose, std::move(cloud)}));
   path_.mark_keyframe();
+  const StampedPose3& newest = builder_.poses().back();
+  loops_.add(newest.utime_us, to_pose2(newest.pose), odometry_.at(newest.utime_us));
   health_.count("keyframes");
   send_keyframes(keyframes_.size() - 1, 1);
+}
+
+// What the graph of before knows beside the poses: odometry.
+void MapperService::recall_graph() {
+  const auto folder = keyframes_.folder();
+  if (folder.empty()) return;
+  const auto found = mapping::find_graph(folder, keyframes_.map_id());
+  mapping::GraphPoses known(found.graph ? found.graph->keyframes : mapping::MapKeyframes{});
+  for (const StampedPose3& keyframe : builder_.poses())
+    loops_.restore(
+        known.next(keyframe.utime_us)
+            .value_or(mapping::StoredGraph::Keyframe{keyframe.utime_us, to_pose2(keyframe.pose)}));
+}
+
+// On the disk first: a mapper that is started again goes on with what listeners have.
+void MapperService::move(ClosedMap closed) {
+  if (!keyframes_.write_graph({map_id_, moves_ + 1, closed.keyframes, closed.edges})) return;
+  const std::int64_t before = version();
+  const std::vector<StampedPose3> poses = builder_.poses();
+  builder_.move_to(std::move(closed.builder), closed.T_new_old);
+  path_.move(poses, builder_.poses());
+  loops_.accept(std::move(closed.keyframes));
+  ++moves_;
+  T_new_old_ = closed.T_new_old;
+  health_.count("maps_moved");
+  send_change(before);
 }
 
 void MapperService::take_request(const map_request_t& message) {
@@ -190,6 +230,10 @@ void MapperService::take_request(const map_request_t& message) {
     case map_request_t::WANT_SAVE:
       save_wanted_ = true;
       return;
+    case map_request_t::WANT_LOCALISE_ONLY:
+      return set_extending(false);
+    case map_request_t::WANT_EXTEND:
+      return set_extending(true);
     case map_request_t::WANT_WORD:
     case map_request_t::WANT_NEW_MAP:
       return;
@@ -198,14 +242,24 @@ void MapperService::take_request(const map_request_t& message) {
   }
 }
 
+// A map that is not to be written is not.
+void MapperService::set_extending(bool wanted) {
+  if (wanted && !config_.extend) return health_.count("MAP_REQUEST/extend_refused");
+  is_extending_ = wanted;
+  health_.raise("localise_only", bus::Health::State::kOk,
+                wanted ? "" : "localises only, as it was told: voxlist localise-only off");
+}
+
 // Only a map that is next to nothing: whoever asks, no more than one cloud is lost.
 void MapperService::give_up(std::int64_t map_id) {
   const bool is_of_one = version() <= 1 && !is_confirmed_;
   const std::int64_t new_id = std::max(new_map_id(), map_id_ + 1);
-  if (!config_.extend || map_id != map_id_ || !is_of_one || !keyframes_.begin_anew(new_id))
+  if (!is_extending_ || map_id != map_id_ || !is_of_one || !keyframes_.begin_anew(new_id))
     return health_.count("MAP_REQUEST/new_map_refused");
   map_id_ = new_id;
   builder_.clear();
+  loops_.clear();
+  moves_ = 0;
   path_ = {};
   sender_.clear();
   resends_queued_ = 0;
@@ -231,6 +285,8 @@ bus::MapChange MapperService::nothing_new(const OccupancyMap& map) const {
   change.map_id = map_id_;
   change.version = change.base_version = version();
   change.resolution = bus::resolution_of(map);
+  change.moves = moves_;
+  change.T_new_old = T_new_old_;
   return change;
 }
 
@@ -302,6 +358,9 @@ void MapperService::tick(std::int64_t now_us) {
   now_us_ = now_us;
   cloud_input_.tick(now_us);
   sender_.run(now_us);
+  if (is_extending_)
+    if (auto closed = loops_.tick(now_us, [this] { return keyframes_.open_again(); }))
+      move(std::move(*closed));
   if (save_wanted_ && (!next_save_us_ || now_us >= *next_save_us_)) save_on_request();
   if (rival_heard_us_ && now_us - *rival_heard_us_ > kRivalGone_us) {
     rival_heard_us_.reset();
@@ -341,6 +400,11 @@ void MapperService::save() {
 }
 
 void MapperService::stop() {
+  while (is_extending_)
+    if (auto closed = loops_.finish([this] { return keyframes_.open_again(); }, kLastLoops_s))
+      move(std::move(*closed));
+    else
+      break;
   save();
   if (keyframes_.finish() && !views_failed_) return;
   throw std::runtime_error("the last save failed: " + health_.message());

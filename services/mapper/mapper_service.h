@@ -6,10 +6,12 @@
 #include <string>
 
 #include "services/mapper/keyframe_keeper.h"
+#include "services/mapper/loops/loop_keeper.h"
 #include "services/mapper/map_channel.h"
 #include "services/mapper/travelled_path.h"
 #include "voxlist/bus/maps/map_chunks.h"
 #include "voxlist/bus/multicast/paced_sender.h"
+#include "voxlist/geometry/odometry_buffer.h"
 #include "voxlist/geometry/tilt.h"
 #include "voxlist/mapping/map_builder.h"
 #include "voxlist/service/inputs/cloud_input.h"
@@ -33,6 +35,7 @@ struct MapperServiceConfig {
   std::string folder = "map";
   bool extend = true;
   TiltUse tilt = TiltUse::kPlanar;
+  LoopUse close_loops = LoopUse::kAlways;
   mapping::MapBuilderConfig builder;
 
   template <class Visitor>
@@ -45,6 +48,10 @@ struct MapperServiceConfig {
     v("tilt", tilt, kTiltNames,
       "as in [localiser]. planar: clouds whose pose has height, roll or pitch stay out of the map; "
       "refine, odometry: they go into it as they are");
+    v("close_loops", close_loops, kLoopUseNames,
+      "where the robot came back to, keyframes move to where all scans agree. always: while it "
+      "drives, too, so that POSE jumps; on_stop: the map is then the one that voxlist map makes of "
+      "the same recording; never");
     builder.visit(v);
   }
 };
@@ -58,7 +65,9 @@ struct MapperServiceConfig {
 /// and to who speaks of another map. Each keyframe goes to disk at once, so that neither kill -9
 /// nor a power cut loses one; a disk that is full is an error in HEALTH until what could not be
 /// written is. A map whose only cloud no other fits is given up when it is asked for. A folder that
-/// vanishes costs nothing either: the map goes on in a fresh one beside it.
+/// vanishes costs nothing either: the map goes on in a fresh one beside it. Where the robot came
+/// back to ground of long before, keyframes move to where all scans agree: a new version of the
+/// map, which goes out as a change once it is whole and the graph is on the disk.
 class MapperService {
  public:
   /// Loads the folder's map. Throws FileError when there is one that cannot be read, when no folder
@@ -78,12 +87,15 @@ class MapperService {
   void take_localisation(const localisation_t& message);
   void take_request(const map_request_t& message);
   void give_up(std::int64_t map_id);
+  void set_extending(bool wanted);
   void take_health(const health_t& message);
   void restore(mapping::Keyframe keyframe);
   void decide(const localisation_t& message);
   void confirm();
   bool takes(const Tilt& tilt);
   void add(Cloud cloud, const Pose3& pose);
+  void recall_graph();
+  void move(ClosedMap closed);
   std::optional<Cloud> take_waiting_cloud(std::int64_t utime_us);
   void send_change(std::int64_t base_version);
   void send_map_change(std::int64_t base_version);
@@ -99,7 +111,7 @@ class MapperService {
   void send_keyframe(std::size_t index);
   void save();
   void save_on_request();
-  std::int64_t version() const { return static_cast<std::int64_t>(builder_.poses().size()); }
+  std::int64_t version() const { return std::ssize(builder_.poses()) + moves_; }
 
   bus::Bus& bus_;
   bus::Health& health_;
@@ -107,7 +119,12 @@ class MapperService {
   mapping::MapBuilder builder_;
   TravelledPath path_;
   KeyframeKeeper keyframes_;
+  OdometryBuffer odometry_;
+  LoopKeeper loops_;
+  std::int64_t moves_ = 0;
+  Pose2 T_new_old_;  // how the newest keyframe was moved the last time
   std::int64_t map_id_;
+  bool is_extending_;          // clouds go into the map
   bool is_confirmed_ = false;  // a cloud was placed by what the map's first one saw
   service::CloudInput cloud_input_;
   std::deque<Cloud> recent_clouds_;

@@ -1,5 +1,7 @@
 #include "services/mapper/travelled_path.h"
 
+#include "voxlist/mapping/graph/carried_scans.h"
+
 namespace voxlist::services {
 
 StampedPose3 TravelledPath::Entry::in_3d() const {
@@ -11,6 +13,15 @@ void TravelledPath::add(const StampedPose2& pose, const Tilt& tilt) {
   if (newest_.size() <= kNewest) return;
   if (newest_.front().is_keyframe) old_keyframes_.push_back(newest_.front().in_3d());
   newest_.pop_front();
+}
+
+void TravelledPath::move(std::span<const StampedPose3> before,
+                         std::span<const StampedPose3> after) {
+  mapping::carry_scans(old_keyframes_, before, after);
+  std::vector<StampedPose3> scans;
+  for (const Entry& entry : newest_) scans.push_back(entry.in_3d());
+  mapping::carry_scans(scans, before, after);
+  for (std::size_t i = 0; i < scans.size(); ++i) newest_[i].pose.pose = to_pose2(scans[i].pose);
 }
 
 std::vector<StampedPose3> TravelledPath::poses() const {

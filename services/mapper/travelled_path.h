@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <span>
 #include <vector>
 
 #include "voxlist/geometry/cloud.h"
@@ -23,6 +24,9 @@ class TravelledPath {
 
   /// The pose added last has become a keyframe's.
   void mark_keyframe() { newest_.back().is_keyframe = true; }
+
+  /// Keyframes were moved, `before` to `after`: all that is known goes with them.
+  void move(std::span<const StampedPose3> before, std::span<const StampedPose3> after);
 
   /// All that is known, oldest first.
   std::vector<StampedPose3> poses() const;

@@ -82,7 +82,9 @@ void OctomapExportService::follow_word() {
   const auto& word = word_.word();
   if (!word) return;
   constexpr std::int64_t kMost = std::numeric_limits<std::int32_t>::max();
-  queue_.know_of(word->map_id, static_cast<std::int32_t>(std::min(word->version, kMost)));
+  // Keyframes that were moved are all fetched anew.
+  if (std::exchange(moves_, word->moves) != word->moves) queue_.start_over();
+  queue_.know_of(word->map_id, static_cast<std::int32_t>(std::min(word->keyframes(), kMost)));
 }
 
 void OctomapExportService::take(const keyframe_t& message) {
@@ -101,7 +103,7 @@ bool OctomapExportService::is_credible(const bus::PosedCloud& keyframe) {
   const auto& word = word_.word();
   if (!word) return true;
   const bool is_ours = keyframe.map_id == word->map_id;
-  if (is_ours && keyframe.index < word->version) return !is_contradicted_by(keyframe);
+  if (is_ours && keyframe.index < word->keyframes()) return !is_contradicted_by(keyframe);
   health_.count(is_ours ? "KEYFRAME/beyond_the_map" : "KEYFRAME/other_map");
   word_.doubt();
   return false;

@@ -93,6 +93,7 @@ class OctomapExportService {
   std::optional<std::int64_t> quiet_since_us_;  // last keyframe inserted, or asked for
   std::int32_t asked_up_to_ = -1;               // index after the last one that was asked for
   service::MapperWord word_;
+  std::int64_t moves_ = 0;  // how often the keyframes were moved, as the mapper says
   std::int64_t now_us_ = 0;
   // A keyframe that another one was handed out instead of: who is right, the mapper is asked.
   struct Suspicion {

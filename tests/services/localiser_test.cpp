@@ -48,8 +48,10 @@ Cloud room(std::int64_t utime_us) {
 // The service, and a test that plays the sensors and the mapper.
 struct Scene {
   explicit Scene(const LocaliserServiceConfig& config = {}) : service(bus, health, config) {
-    bus.subscribe(bus::kLocalisation,
-                  [this](const localisation_t& m) { localisations.push_back(m); });
+    bus.subscribe(bus::kLocalisation, [this](const localisation_t& m) {
+      localisations.push_back(m);
+      poses_when_told.push_back(poses.size());
+    });
     bus.subscribe(bus::kPose, [this](const pose_t& m) { poses.push_back(m); });
     bus.subscribe(bus::kPoseCovariance,
                   [this](const uncertain_pose_t& m) { covariances.push_back(m); });
@@ -95,6 +97,7 @@ struct Scene {
   LocaliserService service;
   std::optional<test::StandInMapper> mapper;
   std::vector<localisation_t> localisations;
+  std::vector<std::size_t> poses_when_told;
   std::vector<pose_t> poses;
   std::vector<uncertain_pose_t> covariances;
   std::vector<rigid_transform_t> map_odom;
@@ -288,6 +291,48 @@ TEST(LocaliserService, ForgetsWhereItWasWhenTheMapIsAnother) {
 }
 
 // The mapper's word on the first cloud is lost, and the robot drives on.
+// Its loops were closed: the map turned and went 2 m aside, and the robot with it.
+TEST(LocaliserService, AnnouncesPosesJumpBeforeItHappensWhereTheMapIsMoved) {
+  Scene scene;
+  const OccupancyMap before = map_of_room();
+  scene.begin(before, kStart_us);
+  scene.send_cloud(kStart_us);
+  scene.run(kStart_us);
+  ASSERT_EQ(scene.poses.size(), 1u);
+  const Pose2 jump{2.0, -1.0, 0.3};
+  OccupancyMap after;
+  add_scan(room(0), to_pose3(jump), 100.0, after);
+  bus::MapChange change = scene.mapper->map();
+  change.utime_us = kStart_us;
+  change.base_version = change.version++;
+  change.moves = 1;
+  change.T_new_old = jump;
+  change.blocks = bus::to_messages(after, difference(before, after));
+  scene.publish(bus::split_map(change));
+  scene.mapper->map().version = change.version;
+  scene.mapper->map().moves = change.moves;
+  scene.run(kStart_us + 1);
+  EXPECT_EQ(scene.poses.size(), 1u);
+  for (int second = 1; second < 3; ++second) {
+    scene.send_cloud(kStart_us + second * 1'000'000);
+    scene.mapper->map().utime_us = kStart_us + second * 1'000'000;
+    scene.run(kStart_us + second * 1'000'000);
+    scene.publish(scene.mapper->word());
+  }
+  ASSERT_EQ(scene.localisations.size(), 3u);
+  const localisation_t& told = scene.localisations[1];
+  EXPECT_EQ(told.state, localisation_t::STATE_TRACKING);
+  EXPECT_EQ(told.searched_whole_map, 0) << "it knows where it is";
+  EXPECT_EQ(told.jump[0], jump.x_m);
+  EXPECT_EQ(told.jump[1], jump.y_m);
+  EXPECT_EQ(told.jump[2], jump.yaw_rad);
+  EXPECT_NEAR(told.modes[0].pose[0], jump.x_m, 0.01);
+  EXPECT_NEAR(told.modes[0].pose[1], jump.y_m, 0.01);
+  EXPECT_EQ(scene.localisations[2].jump[0], 0.0);
+  EXPECT_EQ(scene.poses_when_told[1], 1u);
+  EXPECT_LT(std::hypot(scene.poses[1].vel[0], scene.poses[1].vel[1]), 0.05) << "the robot stood";
+}
+
 TEST(LocaliserService, OneCloudAloneIsTheOriginOfAMap) {
   Scene scene;
   scene.begin({}, kStart_us);

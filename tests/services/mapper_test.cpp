@@ -271,6 +271,39 @@ TEST(Mapper, SendsKeyframesOnceWhenManyAskAtOnce) {
   EXPECT_EQ(scene.keyframes.size(), 4u);
 }
 
+TEST(Mapper, LeavesItsMapAndFileAsTheyAreWhileItIsToldTo) {
+  const TemporaryFolder folder;
+  Scene scene(folder.string());
+  scene.request(map_request_t::WANT_MAP);
+  scene.drive(1, {});
+  const auto file = folder.path() / mapping::kKeyframeFile;
+  const std::string before = io::read_file(file);
+  scene.request(map_request_t::WANT_LOCALISE_ONLY);
+  scene.drive(2, {1.0, 0.0, 0.0});
+  scene.drive(3, {2.0, 0.0, 0.0});
+  EXPECT_EQ(scene.updates.back().version, 1);
+  EXPECT_EQ(scene.updates.back().utime, 3 * kSecond_us) << "each is answered all the same";
+  EXPECT_EQ(io::read_file(file), before);
+  scene.request(map_request_t::WANT_EXTEND);
+  scene.drive(4, {3.0, 0.0, 0.0});
+  EXPECT_EQ(scene.updates.back().version, 2);
+  EXPECT_GT(io::read_file(file).size(), before.size());
+}
+
+TEST(Mapper, ExtendsNoMapThatItMustNotWriteWhoeverAsks) {
+  const TemporaryFolder folder;
+  {
+    Scene scene(folder.string());
+    scene.request(map_request_t::WANT_MAP);
+    scene.drive(1, {});
+  }
+  Scene scene(folder.string(), false);
+  scene.request(map_request_t::WANT_MAP);
+  scene.request(map_request_t::WANT_EXTEND);
+  scene.drive(2, {5.0, 0.0, 0.0});
+  EXPECT_EQ(scene.assembler.held()->version, 1);
+}
+
 TEST(Mapper, OnlyServesItsMapWhenItIsNotToExtendIt) {
   const TemporaryFolder folder;
   {

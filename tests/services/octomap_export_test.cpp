@@ -116,7 +116,7 @@ class OctomapExport : public testing::Test {
   void say_word(std::int64_t answers) {
     if (!word_) return;
     test::StandInMapper mapper(
-        {0, word_->map_id, word_->version, bus::kWholeMap, {0.02, 0.08}, {}});
+        {0, word_->map_id, word_->version, bus::kWholeMap, {0.02, 0.08}, {}, word_->moves});
     for (const auto& message : mapper.word(answers)) bus_.publish(bus::kMapUpdate, message);
   }
 
@@ -372,6 +372,24 @@ TEST_F(OctomapOfAMapper, StartsOverWhenTheMapperHasAnotherKeyframeThere) {
   run(6.0);
   EXPECT_EQ(octomaps_.back().utime, 707);
   EXPECT_EQ(octomaps_.back().view_id, 3);
+}
+
+TEST_F(OctomapOfAMapper, IsMadeAnewWhereTheMapperHasMovedItsKeyframes) {
+  word_ = {7, 4, 1};
+  answer_ = [this](const map_request_t& request) {
+    for (std::int32_t i = request.first; i < 3; ++i) {
+      keyframe_t moved = keyframe(i);
+      moved.trans[1] += 10.0;
+      bus_.publish(bus::kKeyframe, moved);
+    }
+  };
+  say_word(0);
+  run(5.0);
+  EXPECT_EQ(octomaps_.back().view_id, 3);
+  for (const std::int32_t index : {0, 1, 2}) {
+    EXPECT_TRUE(read_back(octomaps_.back()).has(index + 10)) << index;
+    EXPECT_FALSE(read_back(octomaps_.back()).has(index)) << index;
+  }
 }
 
 TEST_F(OctomapOfAMapper, GoesOverToTheMapThatTheMapperHasNow) {

@@ -1,6 +1,7 @@
 #include "voxlist/bus/maps/map_chunks.h"
 
 #include <algorithm>
+#include <array>
 #include <stdexcept>
 #include <tuple>
 
@@ -43,6 +44,9 @@ std::vector<map_update_t> split_map(MapChange change) {
     message.base_version = change.base_version;
     message.chunk = static_cast<std::int32_t>(chunk);
     message.n_chunks = static_cast<std::int32_t>(n_chunks);
+    message.moves = change.moves;
+    const Pose2& moved = change.T_new_old;
+    std::ranges::copy(std::array{moved.x_m, moved.y_m, moved.yaw_rad}, message.moved);
     message.resolution_m = change.resolution.occupied_m;
     message.passed_resolution_m = change.resolution.passed_m;
     message.blocks = slice(occupied, begin, end);

@@ -8,6 +8,7 @@
 #include <voxlist/map_update_t.hpp>
 
 #include "voxlist/bus/counters.h"
+#include "voxlist/geometry/pose.h"
 
 namespace voxlist::bus {
 
@@ -45,13 +46,16 @@ struct MapChange {
   /// Time of the newest cloud that the mapper has decided on, microseconds.
   std::int64_t utime_us = 0;
   std::int64_t map_id = 0;
-  /// Keyframes in the map after the change.
+  /// Keyframes in the map after the change, and how often they were moved.
   std::int64_t version = 0;
   /// Version before it; kWholeMap: replaces whatever was; `version`: nothing changed, there are no
   /// blocks.
   std::int64_t base_version = kWholeMap;
   MapResolution resolution;
   MapBlocks blocks;
+  /// How often keyframes were moved so far; how the newest one was, the last time.
+  std::int64_t moves = 0;
+  Pose2 T_new_old{};
 
   bool is_whole() const { return base_version == kWholeMap; }
 };

@@ -39,8 +39,8 @@ std::vector<voxel_block_t> to_messages(const VoxelMap& map, const std::vector<Vo
   std::vector<voxel_block_t> messages;
   messages.reserve(positions.size());
   for (const Voxel& position : positions) {
-    if (const VoxelBlock* block = map.find_block(position))
-      messages.push_back(to_message(position, *block));
+    const VoxelBlock* block = map.find_block(position);
+    messages.push_back(to_message(position, block ? *block : VoxelBlock{}));
   }
   return messages;
 }

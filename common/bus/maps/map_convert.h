@@ -10,8 +10,8 @@ MapResolution resolution_of(const OccupancyMap& map);
 /// All blocks of the map.
 MapBlocks to_messages(const OccupancyMap& map);
 
-/// The map's blocks at these positions, as they are now. Positions that the map does not have are
-/// left out.
+/// The map's blocks at these positions, as they are now. Where the map has none, they
+/// are empty.
 MapBlocks to_messages(const OccupancyMap& map, const ChangedBlocks& positions);
 
 /// What a change did to a map.

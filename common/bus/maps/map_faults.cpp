@@ -28,7 +28,14 @@ bool is_resolution(double edge_m) { return edge_m >= kFinest_m && edge_m <= kCoa
 bool versions_follow(const map_update_t& m) {
   const bool increment = m.version > 0 && m.base_version == m.version - 1;
   const bool whole = m.base_version == kWholeMap, nothing_changed = m.base_version == m.version;
-  return m.version >= 0 && (whole || nothing_changed || increment);
+  return m.version >= 0 && (whole || nothing_changed || increment) && m.moves >= 0 &&
+         m.moves <= m.version;
+}
+
+// A keyframe is moved within the map.
+bool is_within_map(const double moved[3]) {
+  return std::abs(moved[0]) < kMapReach_m && std::abs(moved[1]) < kMapReach_m &&
+         std::isfinite(moved[2]);
 }
 
 // All chunks but the last are full, and a map without keyframes has no blocks.
@@ -59,7 +66,7 @@ bool fits_memory(std::int64_t blocks, std::int64_t machine_bytes) {
 
 MapFault fault_of(const map_update_t& m) {
   if (!is_sane_utime(m.utime)) return MapFault::kTime;
-  if (!versions_follow(m)) return MapFault::kVersion;
+  if (!versions_follow(m) || !is_within_map(m.moved)) return MapFault::kVersion;
   if (!chunks_fit(m)) return MapFault::kChunk;
   if (!is_resolution(m.resolution_m) || !is_resolution(m.passed_resolution_m) ||
       m.passed_resolution_m < m.resolution_m)

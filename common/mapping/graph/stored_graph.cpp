@@ -8,6 +8,7 @@
 #include <charconv>
 #include <iterator>
 
+#include "voxlist/geometry/tilt.h"
 #include "voxlist/io/files/atomic_file.h"
 #include "voxlist/io/files/file.h"
 
@@ -186,6 +187,11 @@ FoundGraph find_graph(const std::filesystem::path& folder, std::optional<std::in
   found.fault = file.string() + " is of another map";
   found.graph.reset();
   return found;
+}
+
+void stand_at(const Pose2& T_map_keyframe, Pose3& T_map_base) {
+  if (T_map_keyframe != to_pose2(T_map_base))
+    T_map_base = to_pose3(T_map_keyframe, tilt_of(T_map_base));
 }
 
 std::optional<StoredGraph::Keyframe> GraphPoses::next(std::int64_t utime_us) {

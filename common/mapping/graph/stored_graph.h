@@ -59,6 +59,9 @@ struct FoundGraph {
 /// Reads the folder's graph of the map of that id.
 FoundGraph find_graph(const std::filesystem::path& folder, std::optional<std::int64_t> map_id);
 
+/// Puts a keyframe where a graph has it. One that was not moved stays as it is in every bit.
+void stand_at(const Pose2& T_map_keyframe, Pose3& T_map_base);
+
 /// Tells where keyframes stand, which come in the order of their file. Some of them may have been
 /// lost, and some may be newer than the graph.
 class GraphPoses {

@@ -200,6 +200,12 @@ void Localiser::take_over(Localiser& other, const Pose2& T_this_other) {
   if (track_) track_->change_map(T_this_other);
 }
 
+void Localiser::move(const Pose2& T_new_old) {
+  search_.reset();
+  odometry_check_.clear();
+  if (track_) track_->change_map(T_new_old);
+}
+
 Localisation Localiser::localise(const PreparedScan& scan,
                                  const std::optional<Pose2>& T_odom_base) {
   if (map_.empty()) return begin(scan, T_odom_base);

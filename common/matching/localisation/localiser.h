@@ -94,6 +94,9 @@ class Localiser {
   /// Goes on where another localiser is in its own map. `T_this_other`: from that map to this one.
   void take_over(Localiser& other, const Pose2& T_this_other);
 
+  /// The map was moved under the robot. `T_new_old`: from the map before to the map since.
+  void move(const Pose2& T_new_old);
+
   /// Forgets where the robot was: the next cloud is searched for in the whole map.
   void forget();
 

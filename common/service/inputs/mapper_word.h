@@ -20,8 +20,11 @@ class MapperWord {
  public:
   struct Word {
     std::int64_t map_id;
-    /// Keyframes in the map; 0: it is empty.
+    /// Keyframes in the map, and how often they were moved; 0: it is empty.
     std::int64_t version;
+    std::int64_t moves = 0;
+
+    std::int64_t keyframes() const { return version - moves; }
   };
 
   /// `channel`: MAP_UPDATE, or another one that carries such messages of the mapper's.

@@ -73,6 +73,7 @@ int run_desk(std::vector<std::string> arguments, Console& console) {
   add_merge(program, chosen);
   add_rebuild(program, chosen);
   add_localise(program, chosen);
+  add_localise_only(program, chosen);
   add_evaluate(program, chosen);
   add_info(program, chosen);
   add_export(program, chosen);

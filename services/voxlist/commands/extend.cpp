@@ -13,11 +13,11 @@
 #include "services/voxlist/maps/map_files.h"
 #include "services/voxlist/maps/map_run.h"
 #include "services/voxlist/maps/run_report.h"
-#include "services/voxlist/maps/sessions/carried_scans.h"
 #include "services/voxlist/maps/sessions/extended_map.h"
 #include "services/voxlist/maps/stored_map.h"
 #include "services/voxlist/output/progress.h"
 #include "services/voxlist/output/stop.h"
+#include "voxlist/mapping/graph/carried_scans.h"
 
 namespace voxlist::desk {
 namespace {
@@ -66,8 +66,8 @@ class Trajectory {
     const std::span<StampedPose3> scans(scans_);
     const std::span<const StampedPose3> before(before_), after(map_.poses());
     const std::size_t split = map_.were_there(), own = map_.added() > 0 ? split : 0;
-    carry_scans(scans.first(were_there_), before.first(split), after.first(split));
-    carry_scans(scans.subspan(were_there_), before.subspan(own), after.subspan(own));
+    mapping::carry_scans(scans.first(were_there_), before.first(split), after.first(split));
+    mapping::carry_scans(scans.subspan(were_there_), before.subspan(own), after.subspan(own));
     return scans_;
   }
 

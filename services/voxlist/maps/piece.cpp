@@ -4,7 +4,7 @@
 #include <span>
 #include <utility>
 
-#include "services/voxlist/maps/sessions/carried_scans.h"
+#include "voxlist/mapping/graph/carried_scans.h"
 
 namespace voxlist::desk {
 
@@ -39,9 +39,10 @@ void Piece::move_keyframes(const std::vector<Pose2>& T_piece_base) {
   }
   builder_.move(poses, [this](std::size_t i) { return spool_.read(keyframes_[i]).cloud; });
   const auto carry = [&](Begin begin, Begin end) {
-    carry_scans(std::span(trajectory_).subspan(begin.scan, end.scan - begin.scan),
-                std::span(before).subspan(begin.keyframe, end.keyframe - begin.keyframe),
-                std::span(builder_.poses()).subspan(begin.keyframe, end.keyframe - begin.keyframe));
+    mapping::carry_scans(
+        std::span(trajectory_).subspan(begin.scan, end.scan - begin.scan),
+        std::span(before).subspan(begin.keyframe, end.keyframe - begin.keyframe),
+        std::span(builder_.poses()).subspan(begin.keyframe, end.keyframe - begin.keyframe));
   };
   if (first_session() > 0) carry({}, second_session_);
   carry(second_session_, {keyframes_.size(), trajectory_.size()});

@@ -56,8 +56,8 @@ TEST(MapConvert, AnIncrementCarriesTheBlocksThatChanged) {
   const Voxel a = block_of({1000, -1000, 7}), b = block_of({-1000, 1000, 7}),
               nowhere{9999, 9999, 9999};
   const MapBlocks blocks = to_messages(sent, {{a, nowhere}, {b, nowhere}});
-  EXPECT_EQ(blocks.occupied.size(), 1u);
-  EXPECT_EQ(blocks.passed.size(), 1u);
+  EXPECT_EQ(blocks.occupied.size(), 2u);
+  EXPECT_EQ(blocks.passed.size(), 2u);
   const MapChange increment = change_to(sent, 0, blocks);
   const AppliedChange applied = apply(increment, received);
   EXPECT_FALSE(applied.replaced);
@@ -86,6 +86,29 @@ TEST(MapConvert, TellsTheBlocksThatSomethingWentFrom) {
     EXPECT_EQ(passed ? applied.changed.passed : applied.changed.occupied, std::vector{block});
     expect_equal(received, sent);
   }
+}
+
+// As when its loops are closed: what has gone is told as well.
+TEST(MapConvert, TellsWhatTurnsOneMapIntoAnother) {
+  const OccupancyMap full = random_map();
+  OccupancyMap received = full, sent;
+  for (std::size_t i = 5; i < full.occupied.block_count(); ++i)
+    sent.occupied.set_block(full.occupied.block_position(i), full.occupied.block(i));
+  sent.passed.insert({-1000, 1000, 7});
+  const MapBlocks blocks = to_messages(sent, difference(full, sent));
+  EXPECT_EQ(blocks.occupied.size(), 5u);
+  MapChange moved = change_to(sent, 0, blocks);
+  moved.moves = 1;
+  moved.T_new_old = {1.0, -2.0, 0.5};
+  moved.version = 3;
+  moved.base_version = 2;
+  const MapChange there = MapChange{moved};
+  for (const map_update_t& message : split_map(std::move(moved))) {
+    EXPECT_EQ(message.moves, there.moves);
+    EXPECT_EQ(message.moved[1], there.T_new_old.y_m);
+  }
+  EXPECT_FALSE(apply(there, received).replaced);
+  expect_equal(received, sent);
 }
 
 TEST(MapConvert, TellsThatPassedCellsAloneChanged) {

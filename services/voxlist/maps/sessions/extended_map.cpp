@@ -2,7 +2,6 @@
 
 #include <utility>
 
-#include "voxlist/geometry/tilt.h"
 #include "voxlist/io/files/file.h"
 
 namespace voxlist::desk {
@@ -52,7 +51,7 @@ mapping::SessionClosing ExtendedMap::close(const matching::MatcherConfig& config
       keyframes_, [&](std::size_t i) { return mapping::level_cloud(read(i)); }, config);
   for (std::size_t i = 0; closing.moves && i < poses_.size(); ++i) {
     keyframes_[i].T_map_keyframe = closing.poses[i];
-    poses_[i].pose = to_pose3(closing.poses[i], tilt_of(poses_[i].pose));
+    mapping::stand_at(closing.poses[i], poses_[i].pose);
   }
   store_.write_graph(
       {store_.map_id(), store_.moves() + int{closing.moves}, keyframes_, closing.edges});
