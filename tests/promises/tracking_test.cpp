@@ -59,6 +59,16 @@ TEST(NoWrongClaimWhileTracking, AlongABareCorridorWithoutOdometry) {
   EXPECT_GE(claims.ambiguous, 0.9 * claims.scans);
 }
 
+// A map of few scan lines has planes that only those lines make, and doors look alike.
+TEST(NoWrongClaimWhileTracking, BetweenDoorsWithoutOdometry) {
+  const DriveClaims claims = claims_where("doors, no odometry", [](const DriveSpec& spec) {
+    return spec.place == Place::kCorridorWithDoors && spec.wheels == Wheels::kNone &&
+           spec.laser == Laser::kMirror;
+  });
+  EXPECT_EQ(claims.wrong(), 0);
+  EXPECT_GE(claims.ambiguous, 0.4 * claims.scans);
+}
+
 TEST(NoWrongClaimWhileTracking, WithSparseLasersInTheMapThatTheyMake) {
   const DriveClaims claims = claims_where("floors and streets", [](const DriveSpec& spec) {
     return names(spec, "one-scan map, floor") || names(spec, "floor, 16 rings") ||

@@ -78,6 +78,11 @@ class ParticleFilterMatcher : public Matcher {
     return found;
   }
 
+  Eigen::Matrix3d covariance_without_lines(const PreparedScan&, const MatchMode& mode,
+                                           const UncertainPose&) override {
+    return mode.covariance;
+  }
+
   SpatialRefinement refined_in_space(const MatchPoints& points, const Pose3& start) override {
     return refine(ready().surfels, points, start);
   }

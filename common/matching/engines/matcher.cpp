@@ -23,11 +23,19 @@ class SearchMatcher : public Matcher {
 
   Match track(const PreparedScan& scan, const std::optional<PoseWindow>& window,
               const UncertainPose& prior) override {
-    Match match = window ? window_.track(scan, *window, prior) : global_.match(scan, evidence());
-    if (!window && worst_sigma_m(prior.covariance) < kVaguest_m)
-      match.modes = held_by_surfaces(surfels_, scan.points(), match.modes, prior);
+    if (!window) return tracked(scan, prior, global_.match(scan, evidence()));
+    Match match = window_.track(scan, *window, prior);
     weigh_on_surfaces(evidence(), surfels_, scan.few_rays(), match.modes);
     return match;
+  }
+
+  Match track_rivals(const PreparedScan& scan, const UncertainPose& prior) override {
+    return tracked(scan, prior, global_.match_rivals(scan, evidence()));
+  }
+
+  Eigen::Matrix3d covariance_without_lines(const PreparedScan& scan, const MatchMode& mode,
+                                           const UncertainPose& prior) override {
+    return matching::covariance_without_lines(surfels_, scan.points(), mode.pose, prior.covariance);
   }
 
   Match match_rivals(const PreparedScan& scan) override {
@@ -51,6 +59,14 @@ class SearchMatcher : public Matcher {
   }
 
  private:
+  // What was found in the whole map, as a prior has it.
+  Match tracked(const PreparedScan& scan, const UncertainPose& prior, Match match) {
+    if (worst_sigma_m(prior.covariance) < kVaguest_m)
+      match.modes = held_by_surfaces(surfels_, scan.points(), match.modes, prior);
+    weigh_on_surfaces(evidence(), surfels_, scan.few_rays(), match.modes);
+    return match;
+  }
+
   const OccupancyMap& map_;
   SurfelMap surfels_;
   std::optional<EvidenceMap> evidence_;

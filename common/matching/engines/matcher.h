@@ -103,6 +103,17 @@ class Matcher {
   virtual Match track(const PreparedScan& scan, const std::optional<PoseWindow>& window,
                       const UncertainPose& prior) = 0;
 
+  /// As track() in the whole map, slower, with modes that overlap a good deal less: what else there
+  /// is where one stands alone.
+  virtual Match track_rivals(const PreparedScan& scan, const UncertainPose& prior) {
+    return track(scan, std::nullopt, prior);
+  }
+
+  /// The covariance of a pose that track() gave, if what may be single lines of a scan is left out
+  /// of the map's surfaces: they seem to hold a pose where the map's scan that drew them was taken.
+  virtual Eigen::Matrix3d covariance_without_lines(const PreparedScan& scan, const MatchMode& mode,
+                                                   const UncertainPose& prior) = 0;
+
   /// As match() in the whole map, slower, with modes that overlap a good deal less: what else there
   /// is where one stands alone.
   virtual Match match_rivals(const PreparedScan& scan) { return match(scan, std::nullopt); }

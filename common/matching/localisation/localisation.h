@@ -43,9 +43,9 @@ struct PoseMode {
   double probability = 0.0;
 };
 
-/// Whether its covariance lets a pose be told as one: known to 0.3 m, one standard deviation, in
-/// the worst direction.
-bool is_exact(const PoseMode& mode);
+/// Whether its covariance (of x, y, yaw) lets a pose be told as one: known to 0.3 m, one standard
+/// deviation, in the worst direction.
+bool is_exact(const Eigen::Matrix3d& covariance);
 
 /// What is known of where one cloud was taken.
 struct Localisation {

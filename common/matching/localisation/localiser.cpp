@@ -26,7 +26,8 @@ LocalisationState state_of(const Localisation& tracked) {
   double any = 0.0;
   for (const PoseMode& mode : tracked.modes) any += mode.probability;
   if (any < kLikely) return LocalisationState::kLost;
-  const bool told = tracked.confidence >= kSureInReach && is_exact(tracked.modes.front());
+  const bool told =
+      tracked.confidence >= kSureInReach && is_exact(tracked.modes.front().covariance);
   return told ? LocalisationState::kTracking : LocalisationState::kAmbiguous;
 }
 
@@ -65,12 +66,7 @@ Localisation origin_of_map(const PreparedScan& scan) {
 
 }  // namespace
 
-bool is_exact(const PoseMode& mode) {
-  const Eigen::Matrix2d shifts = mode.covariance.topLeftCorner<2, 2>();
-  const double mean = shifts.trace() / 2.0;
-  const double worst = mean + std::sqrt(std::max(0.0, mean * mean - shifts.determinant()));
-  return worst < kExact_m * kExact_m;
-}
+bool is_exact(const Eigen::Matrix3d& covariance) { return worst_sigma_m(covariance) < kExact_m; }
 
 const char* name(LocalisationState state) {
   switch (state) {

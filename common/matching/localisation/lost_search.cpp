@@ -116,7 +116,7 @@ void tell_what_holds(Matcher& matcher, const PreparedScan& scan, Localisation& r
     if (distance_m(mode.pose, best.T_map_base) < kRoundPlace_m &&
         mode.covariance.trace() < held.covariance.trace())
       held.covariance = mode.covariance;
-  if (is_exact(held)) return;
+  if (is_exact(held.covariance)) return;
   best.covariance = held.covariance;
   result.state = LocalisationState::kAmbiguous;
 }

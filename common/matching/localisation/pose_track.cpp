@@ -18,6 +18,16 @@ constexpr double kDoubtful = 0.95;
 // A judgement: after twenty such scans in a row, half of the belief is gone.
 constexpr double kBadScan = 0.97;
 
+// Lines may seem to hold a pose that the motion leaves vague: where nothing else does, it is as
+// vague as that.
+void doubt_lines(Matcher& matcher, const PreparedScan& scan, const UncertainPose& predicted,
+                 ReachMatch& reach) {
+  if (reach.best() < kSureInReach || is_exact(predicted.covariance)) return;
+  MatchMode& best = reach.match.modes.front();
+  const Eigen::Matrix3d covariance = matcher.covariance_without_lines(scan, best, predicted);
+  if (!is_exact(covariance)) best.covariance = covariance;
+}
+
 }  // namespace
 
 PoseTrack::PoseTrack(std::int64_t utime_us, const std::optional<Pose2>& T_odom_base,
@@ -47,10 +57,12 @@ Localisation PoseTrack::match(Matcher& matcher, const PreparedScan& scan,
   const std::int64_t now_us = scan.cloud().utime_us;
   const UncertainPose predicted = scatter_.expected(predict(now_us, T_odom_base));
   ReachMatch reach = match_in_reach(matcher, scan, predicted, in_reach_);
+  doubt_lines(matcher, scan, predicted, reach);
   if (reach.best() < kSureInReach && !by_odometry(T_odom_base)) {
     const UncertainPose anywhere = guess_.anywhere(now_.pose(), seconds_to(now_us));
     if (anywhere.covariance(0, 0) > predicted.covariance(0, 0)) {
       ReachMatch wider = match_in_reach(matcher, scan, anywhere, kSudden * in_reach_);
+      doubt_lines(matcher, scan, anywhere, wider);
       if (wider.best() > reach.best()) reach = std::move(wider);
     }
   }

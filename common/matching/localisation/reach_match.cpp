@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "voxlist/matching/localisation/reach_confidence.h"
 
@@ -14,6 +15,12 @@ constexpr double kWindowSigmas = 3.0, kLeastWindow_m = 0.3, kLeastWindow_rad = 0
 // A prediction that is vaguer (m, to each side) is looked for in the whole map, which is quicker by
 // then.
 constexpr double kWidest_m = 5.0;
+// Then the robot is at one of the places that the search finds with this probability at most: a map
+// that the robot makes may end before its reach does. A judgement.
+constexpr double kInMap = 0.5;
+// A prediction that is vaguer (m, as a standard deviation) tells nothing, as after a minute between
+// stations: there the map alone decides, and with even odds 28 of 66 stations are placed.
+constexpr double kVaguest_m = 20.0;
 
 PoseWindow window_of(const UncertainPose& predicted) {
   const auto half = [&](int i, double least) {
@@ -23,15 +30,28 @@ PoseWindow window_of(const UncertainPose& predicted) {
           std::min(half(2, kLeastWindow_rad), std::numbers::pi)};
 }
 
+// The places that a match lists, with their probabilities.
+ReachMatch ranked(Match match, const UncertainPose& predicted,
+                  const std::optional<PoseWindow>& window, double in_reach, Rivals rivals) {
+  ReachMatch result{std::move(match), {}};
+  result.probabilities = rank_in_reach(predicted, window, in_reach, result.match.modes,
+                                       Rivals::kAnywhere == rivals ? result.match.unseen : 0.0);
+  return result;
+}
+
 }  // namespace
 
 ReachMatch match_in_reach(Matcher& matcher, const PreparedScan& scan,
                           const UncertainPose& predicted, double in_reach, Rivals rivals) {
   std::optional<PoseWindow> window = window_of(predicted);
   if (std::max(window->half_x_m, window->half_y_m) > kWidest_m) window.reset();
-  ReachMatch result{matcher.track(scan, window, predicted), {}};
-  result.probabilities = rank_in_reach(predicted, window, in_reach, result.match.modes,
-                                       Rivals::kAnywhere == rivals ? result.match.unseen : 0.0);
+  const bool beyond =
+      !window && rivals == Rivals::kInReach && worst_sigma_m(predicted.covariance) < kVaguest_m;
+  if (beyond) in_reach = std::min(in_reach, kInMap);
+  ReachMatch result =
+      ranked(matcher.track(scan, window, predicted), predicted, window, in_reach, rivals);
+  if (beyond && result.best() >= kSureInReach)
+    result = ranked(matcher.track_rivals(scan, predicted), predicted, window, in_reach, rivals);
   return result;
 }
 

@@ -31,7 +31,9 @@ enum class Rivals {
 };
 
 /// Where within reach of a prediction a scan was taken: in a window round it, or in the whole map
-/// where the prediction is too vague for one.
+/// where the prediction is too vague for one. There, even odds are the most that anything says for
+/// the places found, and a place is sure only beside rivals that overlap a good deal less; unless
+/// the prediction tells nothing, as between far-apart stations.
 /// `in_reach`: the probability, before the scan is looked at, that it was taken there.
 ReachMatch match_in_reach(Matcher& matcher, const PreparedScan& scan,
                           const UncertainPose& predicted, double in_reach,

@@ -104,8 +104,8 @@ Pose3 refine_pose(const SurfelMap& surfels, const RayPoints& scan, const Pose3& 
     off += step;
     result.converged = step.cwiseProduct(lever_m).norm() < config.converged_m;
   }
-  result.covariance =
-      covariance_of<kDof>(correspondences, prior.covariance, config.least_sigma_m, prior.is_told);
+  result.covariance = covariance_of<kDof>(correspondences, prior.covariance, config.least_sigma_m,
+                                          prior.is_told, true);
   move(way_back<kDof>(result.covariance, prior_information, off), pose);
   result.covariance.diagonal() +=
       shifts_and_turns<kDof>(config.map_sigma_m, config.map_sigma_rad).cwiseAbs2();
@@ -130,6 +130,13 @@ Prior<6> spatial_prior(const Pose2& start, const UncertainPose& prior, const Ref
   return spatial;
 }
 
+Eigen::Matrix3d planar(const Square<6>& spatial) {
+  Eigen::Matrix3d covariance;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) covariance(i, j) = spatial(kPlanar[i], kPlanar[j]);
+  return covariance;
+}
+
 }  // namespace
 
 Refinement refine(const SurfelMap& surfels, const RayPoints& scan, const Pose2& start,
@@ -145,12 +152,19 @@ Refinement refine(const SurfelMap& surfels, const RayPoints& scan, const Pose2& 
   SpatialRefinement spatial;
   const Pose3 pose = refine_pose<6>(surfels, scan, to_pose3(start),
                                     spatial_prior(start, prior, config), config, spatial);
-  Refinement result{
-      to_pose2(pose), {}, spatial.inlier_ratio, spatial.residual_m, spatial.converged};
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j)
-      result.covariance(i, j) = spatial.covariance(kPlanar[i], kPlanar[j]);
-  return result;
+  return {to_pose2(pose), planar(spatial.covariance), spatial.inlier_ratio, spatial.residual_m,
+          spatial.converged};
+}
+
+Eigen::Matrix3d covariance_without_lines(const SurfelMap& surfels, const RayPoints& scan,
+                                         const Pose2& pose, const Eigen::Matrix3d& before,
+                                         const RefineConfig& config) {
+  std::vector<Correspondence<6>> correspondences;
+  LookUps look_ups(scan.points.size());
+  find_correspondences(surfels, scan, to_pose3(pose), config.scale_m, look_ups, correspondences);
+  const Prior<6> prior = spatial_prior(pose, {pose, before}, config);
+  return planar(
+      covariance_of<6>(correspondences, prior.covariance, config.least_sigma_m, true, false));
 }
 
 SpatialRefinement refine(const SurfelMap& surfels, const RayPoints& scan, const Pose3& start,

@@ -72,6 +72,12 @@ Refinement refine(const SurfelMap& surfels, const RayPoints& scan, const Pose2& 
 Refinement refine(const SurfelMap& surfels, const RayPoints& scan, const Pose2& start,
                   const UncertainPose& prior, const RefineConfig& config = {});
 
+/// The covariance of a pose that refine() gave, if what may be single lines of a scan is left out
+/// of the map's surfaces. `before`: what was known of it by the motion.
+Eigen::Matrix3d covariance_without_lines(const SurfelMap& surfels, const RayPoints& scan,
+                                         const Pose2& pose, const Eigen::Matrix3d& before,
+                                         const RefineConfig& config = {});
+
 /// The same with height, roll and pitch: needs points on floors or ceilings too.
 SpatialRefinement refine(const SurfelMap& surfels, const RayPoints& scan, const Pose3& start,
                          const RefineConfig& config = {});

@@ -175,7 +175,8 @@ Square<kDof> of_few_surfels(const Square<kDof>& information, std::vector<Square<
 
 template <int kDof>
 Square<kDof> covariance_of(const std::vector<Correspondence<kDof>>& correspondences,
-                           const Square<kDof>& before, double least_sigma_m, bool doubted) {
+                           const Square<kDof>& before, double least_sigma_m, bool doubted,
+                           bool lines_hold) {
   const auto surfels = by_surfel(correspondences);
   const double point_variance = variance_within(surfels, least_sigma_m);
   const double surfel_variance = variance_between(surfels, point_variance);
@@ -184,6 +185,7 @@ Square<kDof> covariance_of(const std::vector<Correspondence<kDof>>& corresponden
   std::vector<Step<kDof>> pulls;
   std::vector<Square<kDof>> told;
   for (const auto& s : surfels) {
+    if (!lines_hold && s.surfel->of_line) continue;
     const double variance = point_variance + kSharing * surfel_variance * s.weights;
     information += s.information / variance;
     if (s.surfel->of_few_voxels) told.push_back(s.information / variance);
@@ -199,8 +201,8 @@ Square<kDof> covariance_of(const std::vector<Correspondence<kDof>>& corresponden
 }
 
 template Square<3> covariance_of(const std::vector<Correspondence<3>>&, const Square<3>&, double,
-                                 bool);
+                                 bool, bool);
 template Square<6> covariance_of(const std::vector<Correspondence<6>>&, const Square<6>&, double,
-                                 bool);
+                                 bool, bool);
 
 }  // namespace voxlist::matching

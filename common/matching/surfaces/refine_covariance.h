@@ -14,9 +14,11 @@ namespace voxlist::matching {
 /// `before`: the covariance that the pose had before. Where the surfaces hold a direction no
 /// better, it stays as unsure. `doubted`: surfaces may not be what they seem, as in maps of few
 /// points; what few of them alone tell is not believed, and no more than the places that they are
-/// in agree on. `least_sigma_m`: points scatter at least this much.
+/// in agree on. `lines_hold`: planes of what may be a line (Surfel::of_line) tell, too.
+/// `least_sigma_m`: points scatter at least this much.
 template <int kDof>
 Square<kDof> covariance_of(const std::vector<Correspondence<kDof>>& correspondences,
-                           const Square<kDof>& before, double least_sigma_m, bool doubted);
+                           const Square<kDof>& before, double least_sigma_m, bool doubted,
+                           bool lines_hold);
 
 }  // namespace voxlist::matching

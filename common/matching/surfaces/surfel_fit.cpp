@@ -13,6 +13,11 @@ namespace {
 // Planes through fewer voxels than this are of few: twice the fewest that make a surface.
 constexpr std::size_t kFewVoxels = 12;
 
+// A plane whose shorter extent, as a standard deviation, is less (m) may be a line: twice a
+// scanner's noise of 0.02 m, which smears a line along its rays. At 0.03 m a ceiling's scan lines
+// still hold a robot in a corridor to where the map's first scan was taken.
+constexpr double kLine_m = 0.04;
+
 bool enough(std::span<const Voxel> voxels, const SurfelConfig& config) {
   return voxels.size() >= static_cast<std::size_t>(config.min_voxels);
 }
@@ -42,6 +47,7 @@ CubeShape make_surfel(const OccupancyMap& map, const Voxel& lowest, std::span<co
   surfel = {(from + plane.mean + Eigen::Vector3d::Constant(0.5)) * resolution_m, plane.normal,
             tilt_variance(plane, voxels.size())};
   surfel.of_few_voxels = voxels.size() < kFewVoxels;
+  surfel.of_line = plane.deviations(1) * resolution_m < kLine_m;
   find_side(map, voxels, lowest, surfel);
   return shape;
 }

@@ -28,6 +28,9 @@ struct Surfel {
   /// chance it may join what does not belong together, such as a column of a wall and the floor
   /// before it.
   bool of_few_voxels = false;
+  /// Hardly wider than noise makes a line, such as a laser's ring or scan line leaves: it leans
+  /// about the line by chance, mostly so that its plane holds the laser.
+  bool of_line = false;
 
   /// Whether a ray from `origin` may have ended at `point` on this side of the surface.
   bool faces(const Eigen::Vector3d& origin, const Eigen::Vector3d& point) const {

@@ -27,6 +27,10 @@ class OnePose : public Matcher {
     match.modes.front().covariance = held;
     return match;
   }
+  Eigen::Matrix3d covariance_without_lines(const PreparedScan&, const MatchMode&,
+                                           const UncertainPose&) override {
+    return held;
+  }
   Match match_rivals(const PreparedScan& scan) override {
     ++asked;
     return match(scan, std::nullopt);

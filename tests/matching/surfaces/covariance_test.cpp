@@ -142,5 +142,28 @@ TEST(SpatialRefine, RecoversHeightAndTilt) {
   }
 }
 
+// Along a corridor nothing holds x but strips across its ceiling, three voxels wide and as steep as
+// a scan line's noise may make them.
+TEST(Covariance, WithoutLinesHasNothingOfACorridorsAxis) {
+  NoisyRoom corridor(10.0, 1.2, false, 5);
+  OccupancyMap map = corridor.map(60000);
+  std::vector<Eigen::Vector3f> points = corridor.scan({}, 3000);
+  for (int x = -400; x < 400; x += 50)
+    for (int y = -50; y < 50; ++y)
+      for (int k = 0; k < 3; ++k) {
+        map.occupied.insert({x + k, y, 120 + k});
+        points.push_back({0.02F * (float(x + k) + 0.5F), 0.02F * (float(y) + 0.5F),
+                          0.02F * (120.5F + float(k))});
+      }
+  const SurfelMap surfels(map);
+  const UncertainPose vague{{}, Eigen::Vector3d(1.0, 1.0, 0.01).asDiagonal()};
+  const Refinement refined = refine(surfels, points, Pose2{}, vague);
+  EXPECT_LT(std::sqrt(refined.covariance(0, 0)), 0.1);
+  const Eigen::Matrix3d firm =
+      covariance_without_lines(surfels, points, refined.pose, vague.covariance);
+  EXPECT_GT(std::sqrt(firm(0, 0)), 0.9);
+  EXPECT_LT(std::sqrt(firm(1, 1)), 0.05);
+}
+
 }  // namespace
 }  // namespace voxlist::matching
