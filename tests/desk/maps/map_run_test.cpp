@@ -108,13 +108,14 @@ class MapRunTest : public testing::Test {
   const test::TemporaryFolder folder_;
   mapping::KeyframeSpool spool_{folder_.path()};
 
-  // Four bare walls, 10 m by 6 m.
-  static Building bare_room() {
+  // Four bare walls, 10 m by 6 m, and what stands there.
+  static Building bare_room(const std::vector<simulation::Box>& more = {}) {
     using simulation::block;
     std::vector<simulation::Box> boxes{
         block({-5.2, -3.2, -0.2}, {5.2, 3.2, 0.0}), block({-5.2, 3.0, 0.0}, {5.2, 3.2, 2.6}),
         block({-5.2, -3.2, 0.0}, {5.2, -3.0, 2.6}), block({-5.2, -3.0, 0.0}, {-5.0, 3.0, 2.6}),
         block({5.0, -3.0, 0.0}, {5.2, 3.0, 2.6})};
+    boxes.insert(boxes.end(), more.begin(), more.end());
     return {simulation::BoxTree(std::move(boxes)), {}, {}};
   }
 
@@ -180,9 +181,10 @@ TEST_F(MapRunTest, BeginsNoPieceWhereOdometryHasTheRobotNear) {
   EXPECT_EQ(run.figures().pieces, 0);
 }
 
-// Between two walls that look the same everywhere the robot is followed, if vaguely.
+// Between two walls that look the same everywhere the robot is followed, if vaguely. By then it may
+// have turned round, so something must tell the room's ends apart.
 TEST_F(MapRunTest, BeginsNoPieceWhereTheRobotIsFollowed) {
-  const simulation::World room(bare_room());
+  const simulation::World room(bare_room({simulation::block({3.8, 1.8, 0.0}, {5.0, 3.0, 1.8})}));
   matching::LocaliserConfig fast;
   fast.max_speed_mps = 4.0;  // in three seconds it may have left what it saw
   MapRun run(fast, {}, spool_);
