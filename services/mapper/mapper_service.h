@@ -35,7 +35,7 @@ struct MapperServiceConfig {
   std::string folder = "map";
   bool extend = true;
   TiltUse tilt = TiltUse::kPlanar;
-  LoopUse close_loops = LoopUse::kAlways;
+  LoopUse close_loops = LoopUse::kOnStop;
   mapping::MapBuilderConfig builder;
 
   template <class Visitor>
