@@ -45,16 +45,18 @@ still_run() {
 # start_watch: what is heard is in watch.log from here on.
 start_watch() { start watch "$BIN/bus_watch" $((600 * slower)); }
 
-# start_chain: what is heard is in watch.log, too; localiser and mapper have agreed on a map.
-# The other two of the chain only listen.
+# start_chain: what is heard is in watch.log, too; localiser and mapper have agreed on a map. The other two of the chain
+# only listen, and start after that: octomap_export asks the mapper as well, and its answer is none to the localiser.
 start_chain() {
   start_watch
+  start_services localiser mapper
+  within 20 has_answered || return 1
+  start_services octomap_export obstacle_detector
+  within 20 heard "HEALTH obstacle_detector" && within 20 heard "HEALTH octomap_export"
+}
+start_services() {
   local name
-  for name in localiser mapper octomap_export obstacle_detector; do
-    start "$name" "$BIN/$name" --config "$work/robot.toml"
-  done
-  within 20 has_answered && within 20 heard "HEALTH obstacle_detector" &&
-    within 20 heard "HEALTH octomap_export"
+  for name in "$@"; do start "$name" "$BIN/$name" --config "$work/robot.toml"; done
 }
 end_chain() { end_well localiser mapper octomap_export obstacle_detector; }
 
