@@ -29,7 +29,7 @@ struct StoredGraph {
   std::int64_t map_id = 0;
   /// How often the map's keyframes were moved so far.
   std::int64_t moves = 0;
-  /// In the order of the keyframe file. Later ones may have been appended to that since.
+  /// Keyframes in the order of their file, which may have more: those appended since.
   std::vector<Keyframe> keyframes;
   /// What holds them: by the drive, and by loops.
   std::vector<PoseEdge> edges;

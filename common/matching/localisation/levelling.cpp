@@ -17,8 +17,8 @@ constexpr std::int32_t kOneOf = 3;
 // A search finds what is lifted by less than this (m).
 constexpr double kSameHeight_m = 0.1;
 
-// Of a floor that a robot may stand on, so much (m) below its base and above is looked at: no other
-// floor.
+// The floor under a robot is looked for this far (m) below its base and above it: other floors are
+// farther away.
 constexpr double kBelow_m = 1.5, kAbove_m = 1.0;
 
 // What is about a place of the map at a height, in that place's frame.

@@ -47,7 +47,7 @@ class Levelling {
   std::optional<Tilt> last_;
   // Height of the floor (m) on which the robot was last, or the map's origin stands.
   std::optional<double> floor_m_;
-  // Of all the map's floors, as they were at that revision.
+  // Heights (m) of all the map's floors, and the map's revision when they were found.
   std::vector<double> floors_m_;
   std::optional<MapRevision> looked_at_;
 };

@@ -119,8 +119,8 @@ Localisation Localiser::located_from(const Cloud& cloud, const MatchPoints& poin
   }
 }
 
-// Of the map's floors, each may be the one; what is found on one of them has its rivals on the
-// others.
+// The robot may be on any of the map's floors: a place that is found on one of them has its rivals
+// on the others.
 Localisation Localiser::located_anywhere(const Cloud& cloud, const MatchPoints& points,
                                          const KnownTilt& known, const Locate& locate) {
   const Belief before = belief();
@@ -145,7 +145,7 @@ Localisation Localiser::located_anywhere(const Cloud& cloud, const MatchPoints& 
     after = belief();
   }
   if (best.modes.empty()) return best;
-  // Of all that is probable on its floor, so much is so among all floors.
+  // A place's probability on its floor shrinks to this share of it among all floors.
   const double share = (1.0 + odds_of(best.confidence)) / (1.0 + odds);
   const bool was_sure = best.tracking();
   if (share < 1.0) doubt(share, best);

@@ -103,7 +103,7 @@ void CutMap::make_anew(const CounterMap& map, const Voxel& larger_block) {
   });
 }
 
-// Of a block of the map what lies in the larger one.
+// Adds those cells of a block that lie in the larger block.
 void CutMap::raise(const CounterMap& map, std::size_t block, const Voxel& larger_block) {
   for_each_known(map, block, [&](const Voxel& cell, unsigned value) {
     const Voxel larger = larger_cell(cell);

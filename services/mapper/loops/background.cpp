@@ -9,7 +9,7 @@
 namespace voxlist::services {
 namespace {
 
-// Of a thread that others go before; those that drive the robot, above all.
+// The thread's nice value: threads that drive the robot go before it.
 constexpr int kNice = 10;
 
 }  // namespace

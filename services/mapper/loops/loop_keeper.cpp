@@ -15,7 +15,8 @@ namespace {
 // So many keyframes from which ground of long before may be seen make a search worth it: four looks
 // 2 m apart must agree.
 constexpr std::size_t kReturns = 8;
-// From one search to the next it takes so many times what the last one took: a quarter of one core.
+// The pause between two searches, in times of what the last one took: searching takes a quarter of
+// one core.
 constexpr std::int64_t kPause = 4;
 // A map is moved where a keyframe moves by more than this.
 constexpr double kMoved_m = 0.01, kTurned_rad = 0.1 * kRadPerDeg;
