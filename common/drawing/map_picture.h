@@ -7,21 +7,30 @@
 
 namespace voxlist::drawing {
 
+/// What a picture of a map shows (map frame, m). Each list may be empty.
+struct MapView {
+  /// Centres of occupied voxels, and their edge.
+  std::vector<Eigen::Vector3f> occupied;
+  double resolution_m = 0.02;
+  /// Centres of squares of the floor plan above which space was seen to be free, and their edge.
+  std::vector<Eigen::Vector2f> free;
+  double free_m = 0.08;
+  /// Where the robot was, oldest first.
+  std::vector<Eigen::Vector3d> path;
+};
+
 /// Draws a voxel map from above, and below that from the side (side_view.h), so that ramps and
-/// floors that lean are seen; with a path, its start and end, a scale bar and a legend of the
+/// floors that lean are seen; with the path, its start and end, a scale bar and a legend of the
 /// heights.
 ///
-/// `points` are the centres of occupied voxels (map frame, metres) of edge `resolution_m`; `path`
-/// are places in the same frame, oldest first. Either may be empty.
 /// - From above ceilings are left out (map_columns.h says how), so that walls and what stands on
-/// the floor are
-///   seen.
+///   the floor are seen.
 /// - The colour shows the height of the highest voxel that is left (io::viridis). The brightness
 ///   shows how many voxels lie above each other: walls are bright, floors are dim.
+/// - Where no voxel is, space that was seen to be free is slate, and what is unknown is black.
 /// - The picture is 1540 pixels wide and at most 1900 high. The map's longer side lies across; axes
 ///   at the bottom show which way it was turned.
-/// - The outermost thousandth of the points is cut off on each side.
-Picture draw_map(const std::vector<Eigen::Vector3f>& points,
-                 const std::vector<Eigen::Vector3d>& path, double resolution_m);
+/// - The outermost thousandth of the voxels is cut off on each side.
+Picture draw_map(const MapView& view);
 
 }  // namespace voxlist::drawing

@@ -4,14 +4,14 @@
 #include <vector>
 
 #include "voxlist/geometry/cloud.h"
-#include "voxlist/voxels/voxel_map.h"
+#include "voxlist/voxels/occupancy_map.h"
 
 namespace voxlist::mapping {
 
 /// Writes into a map folder what people and other programs look at, each file atomically: map.png
-/// (from above and from the side, with the path), map.ply (voxel centres, coloured by height),
-/// trajectory.tum (the poses). Throws FileError.
-void write_map_views(const std::filesystem::path& folder, const VoxelMap& map,
+/// (from above and from the side, with the path and what is free), map.ply (voxel centres, coloured
+/// by height), trajectory.tum (the poses). Throws FileError.
+void write_map_views(const std::filesystem::path& folder, const OccupancyMap& map,
                      const std::vector<StampedPose3>& trajectory);
 
 }  // namespace voxlist::mapping

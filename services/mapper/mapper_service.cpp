@@ -389,7 +389,7 @@ void MapperService::save() {
   if (folder.empty()) return;
   views_failed_ = true;
   try {
-    mapping::write_map_views(folder, builder_.map().occupied, path_.poses());
+    mapping::write_map_views(folder, builder_.map(), path_.poses());
     views_failed_ = false;
     health_.count("saved");
     health_.clear("views");

@@ -4,6 +4,7 @@
 
 #include "tests/drawing/pixels.h"
 #include "voxlist/drawing/map_columns.h"
+#include "voxlist/drawing/map_marks.h"
 
 namespace voxlist::drawing {
 namespace {
@@ -29,6 +30,15 @@ std::vector<Eigen::Vector3f> room() {
   return points;
 }
 
+MapView view_of(std::vector<Eigen::Vector3f> occupied, std::vector<Eigen::Vector3d> path = {},
+                double resolution_m = 0.1) {
+  MapView view;
+  view.occupied = std::move(occupied);
+  view.path = std::move(path);
+  view.resolution_m = resolution_m;
+  return view;
+}
+
 TEST(MapColumns, LeaveTheCeilingOutAndKeepTheWall) {
   const auto columns = map_columns(room(), 0.1, 0.1);
   ASSERT_EQ(columns.size(), 2400U);
@@ -44,14 +54,14 @@ TEST(MapColumns, LeaveTheCeilingOutAndKeepTheWall) {
 }
 
 TEST(MapPicture, PutsTheLongSideAcrossAndWallsInBright) {
-  const Picture lying = draw_map(room(), {{1.0, 1.0, 0.0}, {5.0, 3.0, 0.0}}, 0.1);
+  const Picture lying = draw_map(view_of(room(), {{1.0, 1.0, 0.0}, {5.0, 3.0, 0.0}}));
   EXPECT_EQ(lying.width(), 1540);
   EXPECT_LT(lying.height(), lying.width());
   auto turned_room = room();
   for (auto& p : turned_room) {
     p = {p.y(), p.x(), p.z()};
   }
-  const Picture turned = draw_map(turned_room, {}, 0.1);
+  const Picture turned = draw_map(view_of(turned_room));
   EXPECT_EQ(turned.height(), lying.height());
   const test::Pixels pixels = test::pixels_of(lying);
   const io::Rgb wall = pixels.at(78, 400), floor = pixels.at(900, 600);
@@ -59,10 +69,9 @@ TEST(MapPicture, PutsTheLongSideAcrossAndWallsInBright) {
 }
 
 TEST(MapPicture, ShowsPathScaleAndHeights) {
-  const test::Pixels without = test::pixels_of(draw_map(room(), {}, 0.1));
+  const test::Pixels without = test::pixels_of(draw_map(view_of(room())));
   const test::Pixels with =
-      test::pixels_of(draw_map(room(), {{1.0, 1.0, 0.0}, {5.0, 3.0, 0.0}}, 0.1));
-  constexpr io::Rgb kPath{255, 92, 72}, kInk{226, 230, 236};
+      test::pixels_of(draw_map(view_of(room(), {{1.0, 1.0, 0.0}, {5.0, 3.0, 0.0}})));
   EXPECT_EQ(without.count(kPath), 0U);
   EXPECT_GT(with.count(kPath), 2000U);
   EXPECT_GT(without.count(kInk), 400U);
@@ -72,12 +81,11 @@ TEST(MapPicture, ShowsPathScaleAndHeights) {
 // A ramp that rises by 1 m over 10 m.
 TEST(MapPicture, ShowsFromTheSideThatTheFloorRises) {
   std::vector<Eigen::Vector3f> ramp;
-  std::vector<Eigen::Vector3d> path;
   for (int x = 0; x < 100; ++x)
     for (int y = 0; y < 40; ++y)
       ramp.emplace_back(0.1F * static_cast<float>(x), 0.1F * static_cast<float>(y),
                         0.01F * static_cast<float>(x));
-  const test::Pixels pixels = test::pixels_of(draw_map(ramp, path, 0.1));
+  const test::Pixels pixels = test::pixels_of(draw_map(view_of(ramp)));
   const auto brightest_row = [&](int column) {
     int best = 0, most = -1;
     for (int row = pixels.height - 84 - 170; row < pixels.height - 84; ++row) {
@@ -93,9 +101,25 @@ TEST(MapPicture, ShowsFromTheSideThatTheFloorRises) {
   EXPECT_NEAR(at_start - at_end, 0.085 * 1460.0, 30.0) << "140 pixels are 1 m, nearly";
 }
 
+TEST(MapPicture, TellsFreeFromUnknownWhereNoVoxelIs) {
+  MapView view = view_of(room());
+  // A hole in the floor, half of which was seen to be free.
+  std::erase_if(view.occupied, [](const Eigen::Vector3f& p) {
+    return p.x() > 2.0F && p.x() < 4.0F && p.y() > 1.0F && p.y() < 3.0F;
+  });
+  view.free_m = 0.1;
+  for (int x = 20; x < 30; ++x)
+    for (int y = 10; y < 30; ++y)
+      view.free.emplace_back(0.1F * (static_cast<float>(x) + 0.5F),
+                             0.1F * (static_cast<float>(y) + 0.5F));
+  const test::Pixels pixels = test::pixels_of(draw_map(view));
+  EXPECT_EQ(pixels.at(650, 500), kFree);
+  EXPECT_EQ(pixels.at(880, 500), kUnknown);
+}
+
 TEST(MapPicture, DrawsEvenAnEmptyMap) {
-  EXPECT_EQ(draw_map({}, {}, 0.05).width(), 1540);
-  EXPECT_EQ(draw_map({{1.0F, 1.0F, 1.0F}}, {}, 0.05).width(), 1540);
+  EXPECT_EQ(draw_map({}).width(), 1540);
+  EXPECT_EQ(draw_map(view_of({{1.0F, 1.0F, 1.0F}}, {}, 0.05)).width(), 1540);
 }
 
 }  // namespace

@@ -26,6 +26,7 @@ void add_evaluate(CLI::App& program, Command& chosen);
 void add_info(CLI::App& program, Command& chosen);
 void add_export(CLI::App& program, Command& chosen);
 void add_octomap(CLI::App& program, Command& chosen);
+void add_slice(CLI::App& program, Command& chosen);
 void add_simulate(CLI::App& program, Command& chosen);
 void add_calibrate(CLI::App& program, Command& chosen);
 void add_watch(CLI::App& program, Command& chosen);

@@ -78,6 +78,7 @@ int run_desk(std::vector<std::string> arguments, Console& console) {
   add_info(program, chosen);
   add_export(program, chosen);
   add_octomap(program, chosen);
+  add_slice(program, chosen);
   add_simulate(program, chosen);
 #ifdef VOXLIST_CALIBRATION
   add_calibrate(program, chosen);

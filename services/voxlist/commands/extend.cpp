@@ -92,11 +92,12 @@ bool close_loops(ExtendedMap& map, const DeskSettings& settings, RunFigures& fig
   return closing.moves;
 }
 
-void write(const ExtendOptions& options, const DeskSettings& settings, const VoxelMap& voxels,
+void write(const ExtendOptions& options, const DeskSettings& settings, const OccupancyMap& made,
            const ExtendedMap& map, const std::vector<StampedPose3>& trajectory,
            const RunFigures& figures, Console& console) {
+  const VoxelMap& voxels = made.occupied;
   MapFiles files(options.folder);
-  files.write_views(voxels, trajectory);
+  files.write_views(made, trajectory);
   tell(options, voxels, figures, map, console);
   files.write_octomap(settings.octomap, settings.localiser.threads, !options.making.no_octomap,
                       console);
@@ -124,8 +125,8 @@ int extend(const ExtendOptions& options, Console& console) {
   Trajectory trajectory(options.folder, map, run);
   const bool moved = close_loops(map, settings, figures);
   const mapping::MapBuilder rebuilt = moved ? map.rebuilt() : mapping::MapBuilder();
-  const VoxelMap& voxels = (moved ? rebuilt : run.builder()).map().occupied;
-  write(options, settings, voxels, map, trajectory.moved(), figures, console);
+  const OccupancyMap& made = (moved ? rebuilt : run.builder()).map();
+  write(options, settings, made, map, trajectory.moved(), figures, console);
   for (const std::string& line : {refused_loops(figures), shortfall(figures)})
     if (!line.empty()) console.warn(line);
   return 0;

@@ -110,7 +110,7 @@ void write(const MergeOptions& options, const DeskSettings& settings, const Piec
   const FileLock lock = mapping::lock_folder(options.folder);
   refuse_with_map(options.folder);
   const VoxelMap& voxels = piece.builder().map().occupied;
-  files.write_views(voxels, by_time(piece.trajectory()));
+  files.write_views(piece.builder().map(), by_time(piece.trajectory()));
   files.write_keyframes(spool, piece.keyframes(), voxels);
   files.write_octomap(settings.octomap, settings.localiser.threads, !options.making.no_octomap,
                       console);

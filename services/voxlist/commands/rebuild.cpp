@@ -43,7 +43,7 @@ int rebuild(const RebuildOptions& options, Console& console) {
   const std::vector<StampedPose3> trajectory = trajectory_of(options.folder, map.poses);
   const VoxelMap& voxels = map.builder.map().occupied;
   MapFiles files(options.folder);
-  files.write_views(voxels, trajectory);
+  files.write_views(map.builder.map(), trajectory);
   tell(options, map, trajectory.size(), console);
   files.write_octomap(settings.octomap, settings.localiser.threads, !options.making.no_octomap,
                       console);

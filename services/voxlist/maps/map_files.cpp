@@ -41,7 +41,8 @@ void MapFiles::write_keyframes(mapping::KeyframeSpool& spool,
   mapping::remove_graph(folder_);
 }
 
-void MapFiles::write_views(const VoxelMap& map, const std::vector<StampedPose3>& trajectory) const {
+void MapFiles::write_views(const OccupancyMap& map,
+                           const std::vector<StampedPose3>& trajectory) const {
   mapping::write_map_views(folder_, map, trajectory);
 }
 

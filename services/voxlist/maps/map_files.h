@@ -25,7 +25,7 @@ class MapFiles {
                        const VoxelMap& map) const;
 
   /// Writes trajectory, voxels and picture. Throws FileError.
-  void write_views(const VoxelMap& map, const std::vector<StampedPose3>& trajectory) const;
+  void write_views(const OccupancyMap& map, const std::vector<StampedPose3>& trajectory) const;
 
   /// Writes the OctoMap of the folder's keyframes, or takes the old one away where none is wanted
   /// or after Ctrl-C. So many threads mark rays at most; 0: as many as there are processors.

@@ -66,22 +66,6 @@ std::vector<Box> doors(const Building& building, double open_rad) {
   return boxes;
 }
 
-simulation::Trajectory lap(const Building& building) {
-  const std::vector<Eigen::Vector2d> path = simulation::plan_tour(building, {});
-  std::vector<Pose2> poses;
-  double from_m = 0.0;
-  for (std::size_t i = 1; i < path.size(); ++i) {
-    const Eigen::Vector2d way = path[i] - path[i - 1];
-    const double length_m = way.norm();
-    for (; from_m < length_m; from_m += kSpeed_mps * kPeriod_s) {
-      const Eigen::Vector2d at = path[i - 1] + way * (from_m / length_m);
-      poses.push_back({at.x(), at.y(), elementary::atan2(way.y(), way.x())});
-    }
-    from_m -= length_m;
-  }
-  return {kPeriod_s, std::move(poses)};
-}
-
 bool keeps_off(const simulation::Trajectory& way, const Eigen::Vector2d& at) {
   return std::none_of(way.poses().begin(), way.poses().end(), [&](const Pose2& pose) {
     return (Eigen::Vector2d(pose.x_m, pose.y_m) - at).norm() < 0.7;
@@ -202,6 +186,22 @@ std::vector<Box> in_both(const Building& a, const Building& b) {
 }
 
 }  // namespace
+
+simulation::Trajectory lap(const Building& building) {
+  const std::vector<Eigen::Vector2d> path = simulation::plan_tour(building, {});
+  std::vector<Pose2> poses;
+  double from_m = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const Eigen::Vector2d way = path[i] - path[i - 1];
+    const double length_m = way.norm();
+    for (; from_m < length_m; from_m += kSpeed_mps * kPeriod_s) {
+      const Eigen::Vector2d at = path[i - 1] + way * (from_m / length_m);
+      poses.push_back({at.x(), at.y(), elementary::atan2(way.y(), way.x())});
+    }
+    from_m -= length_m;
+  }
+  return {kPeriod_s, std::move(poses)};
+}
 
 std::vector<GhostScan> ghost_drive(const GhostDriveConfig& config) {
   const TestFloorConfig floor = floor_16_13(config.seed);

@@ -5,6 +5,8 @@
 
 #include "voxlist/geometry/cloud.h"
 #include "voxlist/geometry/pose.h"
+#include "voxlist/simulation/building/floor_plan.h"
+#include "voxlist/simulation/world/people.h"
 
 namespace voxlist::bench {
 
@@ -33,6 +35,9 @@ struct GhostDriveConfig {
   int seed = 1;
   int walking = 4, standing = 2;
 };
+
+/// A robot's way through all rooms and back to its start, at 0.5 m/s.
+simulation::Trajectory lap(const simulation::Building& building);
 
 /// Equal arguments give equal bits.
 std::vector<GhostScan> ghost_drive(const GhostDriveConfig& config);
