@@ -38,10 +38,10 @@ PlanBox extent(const std::vector<Eigen::Vector3f>& points,
   return box;
 }
 
-MapLayout::MapLayout(const PlanBox& box, double resolution_m) : box_(box) {
+MapLayout::MapLayout(const PlanBox& box, double resolution_m, double map_pixels) : box_(box) {
   const Vector2d size = box.high - box.low;
   turned_ = size.y() > size.x();
-  pixels_per_m_ = kMapPixels / size.maxCoeff();
+  pixels_per_m_ = map_pixels / size.maxCoeff();
   cell_m_ = resolution_m * std::ceil(1.0 / (resolution_m * pixels_per_m_));
 }
 

@@ -24,11 +24,11 @@ class MapLayout {
  public:
   static constexpr int kMargin = 40;
   static constexpr double kMapPixels = 1460.0;
-  /// The picture's width in pixels.
+  /// A picture's width in pixels.
   static constexpr int kWidth = static_cast<int>(kMapPixels) + 2 * kMargin;
 
-  /// A map of voxels of this edge (m).
-  MapLayout(const PlanBox& box, double resolution_m);
+  /// A map of voxels of this edge (m), its longer side so many pixels long.
+  MapLayout(const PlanBox& box, double resolution_m, double map_pixels = kMapPixels);
 
   /// A drawn cell is as wide as a voxel, or as several where a voxel is smaller than a pixel.
   double cell_m() const { return cell_m_; }

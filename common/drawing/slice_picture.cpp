@@ -23,8 +23,8 @@ PlanBox extent_of(const std::vector<MapSlice>& slices) {
   return extent(all, path);
 }
 
-Raster plan_of(const MapView& view, const MapLayout& layout) {
-  Raster plan(kWidth, layout.bottom(), kUnknown);
+Raster plan_of(const MapView& view, const MapLayout& layout, int width) {
+  Raster plan(width, layout.bottom(), kUnknown);
   for (const Eigen::Vector2f& centre : view.free)
     fill_square(plan, layout, centre.cast<double>(), view.free_m, kFree);
   // No voxel is thinner than a pixel.
@@ -48,17 +48,17 @@ void draw_footer(Picture& picture, const MapLayout& layout) {
 }  // namespace
 
 Picture draw_slices(const std::vector<MapSlice>& slices) {
-  const MapLayout layout(extent_of(slices), slices.front().view.resolution_m);
-  const int rows = kTitle + layout.bottom();
-  Picture picture(kWidth, static_cast<int>(slices.size()) * rows + kFooter, kUnknown);
-  int top = 0;
+  const int width = kWidth / static_cast<int>(slices.size());
+  const MapLayout layout(extent_of(slices), slices.front().view.resolution_m, width - 2 * kMargin);
+  Picture picture(kWidth, kTitle + layout.bottom() + kFooter, kUnknown);
+  int left = 0;
   for (const MapSlice& slice : slices) {
-    Picture plan(kWidth, layout.bottom(), kUnknown);
-    plan.paste(plan_of(slice.view, layout), 0, 0);
+    Picture plan(width, layout.bottom(), kUnknown);
+    plan.paste(plan_of(slice.view, layout, width), 0, 0);
     draw_path(plan, layout, slice.view.path);
-    picture.paste(plan, 0, top + kTitle);
-    picture.text({kMargin, top + kTitle}, slice.title, kTextSize, kInk);
-    top += rows;
+    picture.paste(plan, left, kTitle);
+    picture.text({left + kMargin, kTitle}, slice.title, kTextSize, kInk);
+    left += width;
   }
   draw_footer(picture, layout);
   return picture;

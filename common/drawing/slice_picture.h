@@ -15,9 +15,9 @@ struct MapSlice {
   std::string title;
 };
 
-/// Draws slices of one place below each other, each the same piece of the floor plan: occupied
-/// voxels are light, free squares slate, what is unknown black. 1540 pixels wide; a scale bar, the
-/// axes and a legend stand at the bottom. Precondition: there is one.
+/// Draws slices of one place side by side, each the same piece of the floor plan: occupied voxels
+/// are light, free squares slate, what is unknown black. 1540 pixels wide; a scale bar, the axes
+/// and a legend stand at the bottom. Precondition: there is one.
 Picture draw_slices(const std::vector<MapSlice>& slices);
 
 }  // namespace voxlist::drawing

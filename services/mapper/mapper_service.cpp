@@ -54,9 +54,6 @@ constexpr std::int64_t kRivalGone_us = 3 * kSecond_us;
 // reach.
 constexpr double kDrive_m = bus::kMapReach_m - 1000.0;
 
-// Loops are looked for so long (s) when the mapper stops: it is killed some time after.
-constexpr double kLastLoops_s = 5.0;
-
 // An id that no other map has: the time when it was begun.
 std::int64_t new_map_id() {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
@@ -401,7 +398,8 @@ void MapperService::save() {
 
 void MapperService::stop() {
   while (is_extending_)
-    if (auto closed = loops_.finish([this] { return keyframes_.open_again(); }, kLastLoops_s))
+    if (auto closed =
+            loops_.finish([this] { return keyframes_.open_again(); }, config_.last_loops_s))
       move(std::move(*closed));
     else
       break;

@@ -36,6 +36,7 @@ struct MapperServiceConfig {
   bool extend = true;
   TiltUse tilt = TiltUse::kPlanar;
   LoopUse close_loops = LoopUse::kOnStop;
+  double last_loops_s = 5.0;
   mapping::MapBuilderConfig builder;
 
   template <class Visitor>
@@ -52,6 +53,10 @@ struct MapperServiceConfig {
       "where the robot came back to, keyframes move to where all scans agree. always: while it "
       "drives, too, so that POSE jumps; on_stop: the map is then the one that voxlist map makes of "
       "the same recording; never");
+    v("last_loops_s", last_loops_s,
+      "how long the mapper goes on closing loops, once it is to stop (s); what it does not get to "
+      "is done at its next stop, or by voxlist extend",
+      0.0, 50.0);
     builder.visit(v);
   }
 };

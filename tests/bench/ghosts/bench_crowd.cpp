@@ -10,7 +10,6 @@
 
 #include "tests/bench/figures.h"
 #include "tests/bench/ghosts/ghost_drive.h"
-#include "tests/bench/test_floor.h"
 #include "voxlist/simulation/scanner/ideal_sweep.h"
 #include "voxlist/voxels/voids/carved_map.h"
 
@@ -61,8 +60,10 @@ class Drive {
 
  private:
   static Building building_of(const Options& options, int seed) {
-    const TestFloorConfig floor = options.is_quick ? floor_16_13(seed) : floor_60_40(seed);
-    return simulation::make_floor(floor.wing, floor.wings);
+    simulation::BuildingConfig config;
+    config.seed = seed;
+    if (!options.is_quick) config.length_m = 60.0, config.depth_m = 40.0, config.rooms = 12;
+    return simulation::make_building(config);
   }
 
   const std::uint64_t seed_;

@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <exception>
 #include <map>
+#include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -177,6 +179,14 @@ void by_carving(const Scene& scene, bool carve, Result& result) {
 
 using Results = std::map<std::string, Result>;
 
+// The scene; none, and a line, where furniture stands before a door.
+std::optional<Scene> scene_of(const GhostDriveConfig& config, bool is_off) try {
+  return make_scene(config, is_off);
+} catch (const std::runtime_error& error) {
+  std::printf("seed %d is left out: %s\n", config.seed, error.what());
+  return std::nullopt;
+}
+
 void measure(const Scene& scene, Results& results) {
   by_carving(scene, false, results["nothing goes"]);
   by_balance(scene, results["OctoMap's balance, 0.02 m"]);
@@ -230,7 +240,7 @@ int run(int argc, char** argv) {
     for (const bool is_off : {false, true}) {
       Results results;
       for (int seed = options.first; seed <= options.last; ++seed)
-        measure(make_scene({laser, seed}, is_off), results);
+        if (const auto scene = scene_of({laser, seed}, is_off)) measure(*scene, results);
       tell(name + (is_off ? ", poses off" : ", true poses"), results, csv);
       if (options.is_quick) return 0;
     }

@@ -28,6 +28,7 @@ class Scene {
     MapperServiceConfig config;
     config.folder = folder;
     config.close_loops = LoopUse::kOnStop;
+    config.last_loops_s = 600.0;  // however slow the machine is
     config.builder.min_news = 0.0;
     bus_.subscribe(bus::kMapUpdate, [this](const map_update_t& m) { take(m); });
     service.emplace(bus_, health_, config);

@@ -75,7 +75,7 @@ void add_options(CLI::App& command, SliceOptions& options) {
       ->capture_default_str();
   command.add_option("--config", options.config, "robot.toml with a table [mapper]");
   command.add_flag("--carve", options.carve, "without what has gone: people, moved furniture");
-  command.add_flag("--both", options.both, "with what has gone, and below that without");
+  command.add_flag("--both", options.both, "with what has gone, and beside that without");
 }
 
 }  // namespace
