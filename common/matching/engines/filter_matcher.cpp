@@ -87,6 +87,10 @@ class ParticleFilterMatcher : public Matcher {
     return refine(ready().surfels, points, start);
   }
 
+  Evidence evidence_on_surfaces(const Pose2& pose, std::span<const ScanRay> rays) override {
+    return ready().evidence.on_surfaces(pose, rays, ready().surfels);
+  }
+
   const EvidenceMap& evidence() override { return ready().evidence; }
 
   void map_changed(const ChangedBlocks&) override { ready_.reset(); }

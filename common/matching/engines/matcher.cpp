@@ -46,6 +46,10 @@ class SearchMatcher : public Matcher {
     return refine(surfels_, points, start);
   }
 
+  Evidence evidence_on_surfaces(const Pose2& pose, std::span<const ScanRay> rays) override {
+    return evidence().on_surfaces(pose, rays, surfels_);
+  }
+
   const EvidenceMap& evidence() override {
     if (!evidence_) evidence_.emplace(map_);
     return *evidence_;

@@ -4,6 +4,7 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "voxlist/geometry/uncertain_pose.h"
@@ -121,6 +122,9 @@ class Matcher {
   /// A pose near `start` by all six coordinates: where points, floors and ceilings among them, lie
   /// on the map's surfaces.
   virtual SpatialRefinement refined_in_space(const MatchPoints& points, const Pose3& start) = 0;
+
+  /// What the map's voxels and surfaces say to rays at a pose (EvidenceMap::on_surfaces).
+  virtual Evidence evidence_on_surfaces(const Pose2& T_map_base, std::span<const ScanRay> rays) = 0;
 
   /// The map, made ready for weighing poses.
   virtual const EvidenceMap& evidence() = 0;

@@ -95,12 +95,14 @@ void Localiser::follow_map() {
   if (map_.revision() == revision_) return;
   revision_ = map_.revision();
   matcher_.reset();
+  standing_heights_.clear();
 }
 
 void Localiser::forget() {
   track_.reset();
   search_.reset();
   levelling_.forget();
+  floor_belief_.clear();
 }
 
 MotionLimits Localiser::limits() const {
@@ -192,6 +194,8 @@ void Localiser::take_over(Localiser& other, const Pose2& T_this_other) {
   search_.reset();
   odometry_check_.clear();
   levelling_ = other.levelling_;
+  standing_heights_.clear();
+  floor_belief_.clear();
   level_odometry_ = other.level_odometry_;
   if (track_) track_->change_map(T_this_other);
 }

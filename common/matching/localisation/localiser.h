@@ -7,7 +7,9 @@
 #include "voxlist/geometry/cloud.h"
 #include "voxlist/geometry/uncertain_pose.h"
 #include "voxlist/matching/engines/matcher.h"
-#include "voxlist/matching/localisation/levelling.h"
+#include "voxlist/matching/floors/floor_belief.h"
+#include "voxlist/matching/floors/levelling.h"
+#include "voxlist/matching/floors/standing_heights.h"
 #include "voxlist/matching/localisation/localisation.h"
 #include "voxlist/matching/localisation/thread_arena.h"
 #include "voxlist/matching/motion/level_odometry.h"
@@ -118,6 +120,7 @@ class Localiser {
   Localisation locate_at(const Cloud& cloud, const Tilt& tilt, const Locate& locate);
   Localisation locate_tilted(const Cloud& cloud, const KnownTilt& known,
                              const std::optional<Pose2>& expected, const Locate& locate);
+  void weigh_floors(const MatchPoints& points, Localisation& result);
   struct RefinedTilt {
     Tilt tilt;
     double inlier_ratio = 0.0;
@@ -153,6 +156,8 @@ class Localiser {
   std::unique_ptr<LostSearch> search_;
   OdometryCheck odometry_check_;
   Levelling levelling_;
+  StandingHeights standing_heights_;
+  FloorBelief floor_belief_;
   LevelOdometry level_odometry_;
 };
 

@@ -90,10 +90,15 @@ Localisation Localiser::locate_tilted(const Cloud& cloud, const KnownTilt& known
     Belief before = belief();
     Localisation result =
         located_from(cloud, points, expected_tilt(points, known, *expected), locate);
-    if (!result.searched_whole_map) return result;
+    if (!result.searched_whole_map) {
+      weigh_floors(points, result);
+      return result;
+    }
     believe(std::move(before));
   }
-  return located_anywhere(cloud, points, known, locate);
+  Localisation result = located_anywhere(cloud, points, known, locate);
+  if (result.tracking()) floor_belief_.clear();
+  return result;
 }
 
 // Locates a cloud that is tilted about like this.

@@ -41,6 +41,7 @@ class OnePose : public Matcher {
     return refined;
   }
 
+  Evidence evidence_on_surfaces(const Pose2&, std::span<const ScanRay>) override { return {}; }
   const EvidenceMap& evidence() override { return evidence_; }
   void map_changed(const ChangedBlocks&) override {}
 

@@ -38,6 +38,7 @@ class Told : public Matcher {
     return mode.covariance;
   }
   SpatialRefinement refined_in_space(const MatchPoints&, const Pose3&) override { return {}; }
+  Evidence evidence_on_surfaces(const Pose2&, std::span<const ScanRay>) override { return {}; }
   const EvidenceMap& evidence() override { return evidence_; }
   void map_changed(const ChangedBlocks&) override {}
 

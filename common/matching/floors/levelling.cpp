@@ -1,9 +1,9 @@
-#include "voxlist/matching/localisation/levelling.h"
+#include "voxlist/matching/floors/levelling.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "voxlist/matching/localisation/standing_heights.h"
+#include "voxlist/matching/floors/standing_heights.h"
 
 namespace voxlist::matching {
 namespace {

@@ -1,4 +1,4 @@
-#include "voxlist/matching/localisation/standing_heights.h"
+#include "voxlist/matching/floors/standing_heights.h"
 
 #include <gtest/gtest.h>
 
@@ -34,6 +34,17 @@ TEST(StandingHeights, AreNoTablesAndNoCeilings) {
     for (double y = -2.0; y < 2.0; y += 0.02)
       map.occupied.insert(voxel_at(Eigen::Vector3d(x, y, 2.6), map.occupied.resolution_m()));
   ASSERT_EQ(standing_heights(map).size(), 1U);
+}
+
+TEST(StandingHeights, AboutAPlaceAreThoseOfTheFloorsThere) {
+  OccupancyMap map;
+  add_surface(0.0, 12.0, map);
+  add_surface(3.0, 4.0, map);
+  const std::vector<double> heights = standing_heights_about(map, {1.0, 0.0, 0.0});
+  ASSERT_EQ(heights.size(), 2U);
+  EXPECT_NEAR(heights[0], 0.0, 0.05);
+  EXPECT_NEAR(heights[1], 3.0, 0.05);
+  EXPECT_EQ(standing_heights_about(map, {5.9, 0.0, 3.0}).size(), 1U);
 }
 
 TEST(StandingHeights, NothingHasNone) { EXPECT_TRUE(standing_heights({}).empty()); }
