@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "voxlist/geometry/angle.h"
+#include "voxlist/geometry/elementary.h"
 #include "voxlist/matching/floors/standing_heights.h"
 
 namespace voxlist::matching {
@@ -16,6 +18,13 @@ constexpr std::int32_t kOneOf = 3;
 
 // A search finds what is lifted by less than this (m).
 constexpr double kSameHeight_m = 0.1;
+
+// From cloud to cloud a robot is lifted by no more than this (m) and this share of its way beyond
+// what its lean says: bumps, springs, and what a map's heights are off by. A judgement.
+constexpr double kHeave_m = 0.1, kHeaveShare = 0.2;
+// A floor that leans otherwise than the robot did (rad), or is not told, may be where a slope
+// begins or ends: the robot's pitch then changes by about so much from cloud to cloud.
+constexpr double kFlat_rad = 2.0 * kRadPerDeg, kSlope_rad = 4.0 * kRadPerDeg;
 
 // The floor under a robot is looked for this far (m) below its base and above it: other floors are
 // farther away.
@@ -43,18 +52,43 @@ Tilt Levelling::of_origin(const KnownTilt& known) {
   return {};
 }
 
-std::vector<Tilt> Levelling::guesses(const KnownTilt& known) const {
+std::vector<Tilt> Levelling::guesses(const KnownTilt& known, const Pose2& place) const {
   std::vector<Tilt> guesses;
-  const double last_m = last_.value_or(Tilt{}).z_m;
-  if (known.odometry) return {{last_m, known.odometry->roll_rad, known.odometry->pitch_rad}};
-  if (last_) guesses.push_back(*last_);
+  const double expected_m = height_m(place, last());
+  if (known.odometry) return {{expected_m, known.odometry->roll_rad, known.odometry->pitch_rad}};
+  if (last_) guesses.push_back({expected_m, last().roll_rad, last().pitch_rad});
   if (known.floor) {
     Tilt by_floor = known.floor->level;
-    by_floor.z_m = floor_m_ ? *floor_m_ + by_floor.z_m : last_m;
+    by_floor.z_m = floor_m_ ? *floor_m_ + by_floor.z_m : expected_m;
+    if (!reaches(place, by_floor)) by_floor.z_m = expected_m;
     guesses.push_back(by_floor);
   }
   if (guesses.empty()) guesses.emplace_back();
+  const bool is_flat =
+      known.floor && std::abs(guesses.back().pitch_rad - last().pitch_rad) < kFlat_rad;
+  if (last_ && !is_flat)
+    for (const double change : {-kSlope_rad, kSlope_rad})
+      guesses.push_back({expected_m, last().roll_rad, last().pitch_rad + change});
   return guesses;
+}
+
+// The height at a place of a robot that is tilted like this there.
+double Levelling::height_m(const Pose2& place, const Tilt& tilt) const {
+  if (!last_) return 0.0;
+  const Pose2 way = last_->place.inverse() * place;
+  const double pitch = 0.5 * (tilt.pitch_rad + last_->tilt.pitch_rad),
+               roll = 0.5 * (tilt.roll_rad + last_->tilt.roll_rad);
+  return last_->tilt.z_m - elementary::sin(pitch) * way.x_m + elementary::sin(roll) * way.y_m;
+}
+
+bool Levelling::reaches(const Pose2& place, const Tilt& tilt) const {
+  if (!last_) return true;
+  const double way_m = distance_m(place, last_->place);
+  return std::abs(tilt.z_m - height_m(place, tilt)) <= kHeave_m + kHeaveShare * way_m;
+}
+
+void Levelling::change_map(const Pose2& T_new_old) {
+  if (last_) last_->place = T_new_old * last_->place;
 }
 
 std::vector<Tilt> Levelling::guesses_anywhere(const KnownTilt& known) const {
@@ -71,8 +105,8 @@ std::vector<Tilt> Levelling::guesses_anywhere(const KnownTilt& known) const {
   return guesses;
 }
 
-void Levelling::learn(const Tilt& tilt, const std::optional<Floor>& floor) {
-  last_ = tilt;
+void Levelling::learn(const Pose2& place, const Tilt& tilt, const std::optional<Floor>& floor) {
+  last_ = {place, tilt};
   if (floor) floor_m_ = tilt.z_m - floor->level.z_m;
 }
 

@@ -20,21 +20,29 @@ struct KnownTilt {
 /// How a cloud is tilted against the map, before the map's surfaces are asked.
 class Levelling {
  public:
-  /// What the tilt may be; at least one. Odometry's comes before all others.
-  std::vector<Tilt> guesses(const KnownTilt& known) const;
+  /// What the tilt of a robot may be that is expected at a place; at least one. Odometry's comes
+  /// before all others.
+  std::vector<Tilt> guesses(const KnownTilt& known, const Pose2& place) const;
+
+  /// Whether a robot may be tilted like this at a place, by the way from the last cloud: it climbs
+  /// as its wheels lean, and does not jump.
+  bool reaches(const Pose2& place, const Tilt& tilt) const;
 
   /// The same of a robot that may be anywhere: on each floor of the map that was looked at, or at
   /// its origin's height.
   std::vector<Tilt> guesses_anywhere(const KnownTilt& known) const;
 
   /// The tilt of the last cloud, as far as one is known.
-  Tilt last() const { return last_.value_or(Tilt{}); }
+  Tilt last() const { return last_ ? last_->tilt : Tilt{}; }
 
   /// The cloud that begins a map is made level; its base is at height 0.
   static Tilt of_origin(const KnownTilt& known);
 
-  /// A cloud with that floor was surely tilted like this.
-  void learn(const Tilt& tilt, const std::optional<Floor>& floor);
+  /// A cloud with that floor was surely taken at this place, and tilted like this.
+  void learn(const Pose2& place, const Tilt& tilt, const std::optional<Floor>& floor);
+
+  /// Goes on in another map. `T_new_old`: from the map so far to that one.
+  void change_map(const Pose2& T_new_old);
 
   /// The robot may have been carried: what is known of the last cloud says nothing of the next.
   void forget() { last_.reset(); }
@@ -44,7 +52,13 @@ class Levelling {
   void look_at(const OccupancyMap& map);
 
  private:
-  std::optional<Tilt> last_;
+  struct Last {
+    Pose2 place;
+    Tilt tilt;
+  };
+  double height_m(const Pose2& place, const Tilt& tilt) const;
+
+  std::optional<Last> last_;
   // Height of the floor (m) on which the robot was last, or the map's origin stands.
   std::optional<double> floor_m_;
   // Heights (m) of all the map's floors, and the map's revision when they were found.

@@ -122,7 +122,10 @@ Localisation Localiser::localise(const Cloud& cloud, const std::optional<Pose2>&
   Localisation result = answered(cloud, expected, odometry_tilt, [&](const PreparedScan& scan) {
     return localise(scan, T_level_base);
   });
-  if (result.tracking()) levelling_.learn(result.modes.front().tilt, result.floor);
+  if (result.tracking()) {
+    const PoseMode& best = result.modes.front();
+    levelling_.learn(best.T_map_base, best.tilt, result.floor);
+  }
   if (T_odom_base) level_odometry_.note(*T_odom_base, odometry_tilt.value_or(levelling_.last()));
   return result;
 }
@@ -194,6 +197,7 @@ void Localiser::take_over(Localiser& other, const Pose2& T_this_other) {
   search_.reset();
   odometry_check_.clear();
   levelling_ = other.levelling_;
+  levelling_.change_map(T_this_other);
   standing_heights_.clear();
   floor_belief_.clear();
   level_odometry_ = other.level_odometry_;
@@ -203,6 +207,7 @@ void Localiser::take_over(Localiser& other, const Pose2& T_this_other) {
 void Localiser::move(const Pose2& T_new_old) {
   search_.reset();
   odometry_check_.clear();
+  levelling_.change_map(T_new_old);
   if (track_) track_->change_map(T_new_old);
 }
 

@@ -91,6 +91,10 @@ Localisation Localiser::locate_tilted(const Cloud& cloud, const KnownTilt& known
     Localisation result =
         located_from(cloud, points, expected_tilt(points, known, *expected), locate);
     if (!result.searched_whole_map) {
+      if (jumps(result)) {
+        believe(std::move(before));
+        return not_level(std::move(result));
+      }
       weigh_floors(points, result);
       return result;
     }
@@ -99,6 +103,12 @@ Localisation Localiser::locate_tilted(const Cloud& cloud, const KnownTilt& known
   Localisation result = located_anywhere(cloud, points, known, locate);
   if (result.tracking()) floor_belief_.clear();
   return result;
+}
+
+// Whether it was found at a height that the robot's way does not lead to.
+bool Localiser::jumps(const Localisation& found) const {
+  return !found.modes.empty() &&
+         !levelling_.reaches(found.modes.front().T_map_base, found.modes.front().tilt);
 }
 
 // Locates a cloud that is tilted about like this.
@@ -195,12 +205,12 @@ Localiser::RefinedTilt Localiser::refined_tilt(const MatchPoints& points, const 
 // Where the robot is expected, the map's surfaces choose among what is known.
 Tilt Localiser::expected_tilt(const MatchPoints& points, const KnownTilt& known,
                               const Pose2& expected) {
-  const std::vector<Tilt> guesses = levelling_.guesses(known);
+  const std::vector<Tilt> guesses = levelling_.guesses(known, expected);
   const MatchPoints few = some_of(points, kFewPoints);
-  RefinedTilt best{guesses.back()};
+  RefinedTilt best{guesses.front()};
   for (const Tilt& guess : guesses) {
     const RefinedTilt now = refined_tilt(few, expected, guess);
-    if (now.inlier_ratio > best.inlier_ratio) best = now;
+    if (now.inlier_ratio > best.inlier_ratio && levelling_.reaches(expected, now.tilt)) best = now;
   }
   return best.tilt;
 }
