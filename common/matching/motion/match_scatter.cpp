@@ -15,6 +15,8 @@ const Eigen::Vector3d kLargest{0.2, 0.2, 0.05};
 // Where odometry and match differ by more than so many standard deviations, it is not by chance:
 // wheels slipped, and odometry is the less sure for it.
 constexpr double kByChance = 4.0;
+// A match that pulls so many times farther than to its own place was made with a looser prior.
+constexpr double kTooFar = 2.0;
 
 }  // namespace
 
@@ -37,7 +39,10 @@ void MatchScatter::correct(TrackedPose& moved, const UncertainPose& matched) {
   learn(to_base * difference(matched.pose, guess.pose) - off_);
   const double surprise = mahalanobis2(matched.pose, expected(guess)) / (kByChance * kByChance);
   if (surprise > 1.0) moved.doubt(surprise);
-  const UncertainPose pose = fused(moved.pose(), prior, matched, covariance(guess.pose));
+  UncertainPose pose = fused(moved.pose(), prior, matched, covariance(guess.pose));
+  const double way_m = distance_m(matched.pose, guess.pose);
+  if (surprise > 1.0 && distance_m(pose.pose, guess.pose) > kTooFar * way_m)
+    pose = fused(moved.pose(), expected(moved.pose()), matched, covariance(guess.pose));
   off_ = to_base * difference(matched.pose, pose.pose);
   moved.learn(pose);
 }
