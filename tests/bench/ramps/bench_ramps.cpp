@@ -40,7 +40,9 @@ constexpr Kind kKinds[] = {{"16 rings, refine, odometry", TiltUse::kRefine, true
 
 class Errors {
  public:
-  void add(const Pose3& found, const Pose3& truth) {
+  explicit Errors(bool lists = false) : lists_(lists) {}
+
+  void add(const Pose3& found, const Pose3& truth, std::int64_t number) {
     const Pose3 off = truth.inverse() * found;
     const double m = off.translation().norm(), rad = Eigen::AngleAxisd(off.linear()).angle();
     ++n_;
@@ -48,6 +50,7 @@ class Errors {
     squares_rad2_ += rad * rad;
     worst_m_ = std::max(worst_m_, m);
     wrong_ += m > kWrong_m || rad > kWrong_rad ? 1 : 0;
+    if (lists_) list(number, off, truth);
   }
 
   std::vector<Figure> figures(const std::string& scene, const std::string& of) const {
@@ -60,6 +63,14 @@ class Errors {
   }
 
  private:
+  static void list(std::int64_t number, const Pose3& off, const Pose3& truth) {
+    const Eigen::Vector3d p = truth.translation(), t = off.translation();
+    std::printf("  %lld at %.1f %.1f %.2f off %.3f %.3f %.3f, %.2f deg\n",
+                static_cast<long long>(number), p.x(), p.y(), p.z(), t.x(), t.y(), t.z(),
+                Eigen::AngleAxisd(off.linear()).angle() / kRadPerDeg);
+  }
+
+  bool lists_;
   int n_ = 0, wrong_ = 0;
   double squares_m2_ = 0.0, squares_rad2_ = 0.0, worst_m_ = 0.0;
 };
@@ -70,8 +81,9 @@ Pose3 pose_of(const Localisation& found) {
 
 class Run {
  public:
-  Run(const TwoFloors& floors, const Kind& kind, std::uint64_t seed)
-      : floors_(floors),
+  Run(const TwoFloors& floors, const Kind& kind, std::uint64_t seed, bool lists)
+      : lists_(lists),
+        floors_(floors),
         kind_(kind),
         seed_(seed),
         drive_(ramp_drive(floors, kStep_m, seed)),
@@ -122,26 +134,27 @@ class Run {
   }
 
   Errors placed() const {
-    Errors errors;
+    Errors errors(lists_);
     for (const StampedPose3& pose : run_.trajectory())
-      errors.add(T_world_map_ * pose.pose, truth_at(pose.utime_us));
+      errors.add(T_world_map_ * pose.pose, truth_at(pose.utime_us), pose.utime_us / kStep_us);
     return errors;
   }
 
   // Claims of single scans on the way, each searched for in the whole map.
   Errors singles() const {
     matching::Localiser localiser(run_.builder().map(), config());
-    Errors errors;
+    Errors errors(lists_);
     for (std::size_t i = 3; i < drive_.truth.size(); i += 9) {
       const Localisation found = localiser.locate(scan(drive_.truth[i], 50'000 + i, 0));
-      if (found.tracking()) errors.add(T_world_map_ * pose_of(found), drive_.truth[i]);
+      if (found.tracking())
+        errors.add(T_world_map_ * pose_of(found), drive_.truth[i], static_cast<std::int64_t>(i));
     }
     return errors;
   }
 
   // Claims after ten scans on one floor and a ride to the same place on the other one.
   Errors lifts() const {
-    Errors errors;
+    Errors errors(lists_);
     for (const double from_m : {0.0, floors_.upper_m()}) {
       matching::Localiser localiser(run_.builder().map(), config());
       for (int i = 0; i < 24; ++i) {
@@ -152,12 +165,13 @@ class Run {
             kind_.odometry ? std::optional(Pose2{0.2 * i, 0.0, 0.0}) : std::nullopt;
         const auto tilt = kind_.odometry ? std::optional(Tilt{}) : std::nullopt;
         const Localisation found = localiser.localise(cloud, T_odom_base, tilt);
-        if (i >= 10 && found.tracking()) errors.add(T_world_map_ * pose_of(found), truth);
+        if (i >= 10 && found.tracking()) errors.add(T_world_map_ * pose_of(found), truth, i);
       }
     }
     return errors;
   }
 
+  const bool lists_;
   const TwoFloors& floors_;
   const Kind kind_;
   const std::uint64_t seed_;
@@ -179,13 +193,14 @@ int main(int argc, char** argv) {
   const auto first = static_cast<std::uint64_t>(argc > 2 ? std::atoi(argv[2]) : 1),
              last = argc > 3 ? static_cast<std::uint64_t>(std::atoi(argv[3])) : first;
   const std::string only = argc > 4 ? argv[4] : "";
+  const bool lists = argc > 5 && std::string(argv[5]) == "list";
   std::vector<Figure> figures;
   for (std::uint64_t seed = first; seed <= last; ++seed) {
     const TwoFloors floors({slope_deg * kRadPerDeg, seed});
     for (const Kind& kind : kKinds) {
       const std::string scene = std::string(kind.name) + ", seed " + std::to_string(seed);
       if (scene.find(only) == std::string::npos) continue;
-      const auto measured = bench::Run(floors, kind, seed).measure(scene);
+      const auto measured = bench::Run(floors, kind, seed, lists).measure(scene);
       print(scene, measured);
       std::fflush(stdout);
       figures.insert(figures.end(), measured.begin(), measured.end());
