@@ -11,6 +11,7 @@ class mirror_state_t;
 class obstacles_t;
 class planar_lidar_t;
 class pointcloud_t;
+class pose_hint_t;
 class pose_t;
 class rigid_transform_t;
 class uncertain_pose_t;
@@ -90,6 +91,10 @@ inline constexpr int kKeyframesAtOnce = 32;
 /// Asks mapper for a whole map, for free space, for keyframes that were missed, or to save. Rate:
 /// when needed. From localiser, octomap_export, scripts to mapper.
 inline constexpr Channel<map_request_t> kMapRequest{"MAP_REQUEST"};
+
+/// Where a person thinks that the robot is: where a lost one looks, too. Frame: map. Rate: on
+/// command. From voxlist hint, or whoever knows, to localiser.
+inline constexpr Channel<pose_hint_t> kPoseHint{"POSE_HINT"};
 
 /// The map as an OctoMap. Frame: map. Rate: on change, at most 1 Hz.
 /// From octomap_export to planners.

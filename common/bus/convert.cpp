@@ -6,6 +6,7 @@
 #include <vector>
 #include <voxlist/keyframe_t.hpp>
 #include <voxlist/pointcloud_t.hpp>
+#include <voxlist/pose_hint_t.hpp>
 #include <voxlist/pose_t.hpp>
 #include <voxlist/rigid_transform_t.hpp>
 
@@ -111,6 +112,20 @@ std::optional<StampedPose3> from_message(const pose_t& message) {
   const auto pose = make_pose(message.pos, message.orientation);
   if (!pose || !is_sane_utime(message.utime)) return std::nullopt;
   return StampedPose3{message.utime, *pose};
+}
+
+std::optional<UncertainPose> from_message(const pose_hint_t& message) {
+  const Eigen::Vector2d position(message.pose[0], message.pose[1]);
+  // Written so that NaN fails.
+  const bool sane = position.allFinite() && position.cwiseAbs().maxCoeff() <= kMaxPosition_m &&
+                    std::isfinite(message.pose[2]) && message.sigma_m > 0.0 &&
+                    message.sigma_m <= kMaxPosition_m && message.sigma_rad > 0.0 &&
+                    std::isfinite(message.sigma_rad) && is_sane_utime(message.utime);
+  if (!sane) return std::nullopt;
+  const double m2 = message.sigma_m * message.sigma_m;
+  const double rad2 = message.sigma_rad * message.sigma_rad;
+  return UncertainPose{{position.x(), position.y(), wrap_angle(message.pose[2])},
+                       Eigen::Vector3d(m2, m2, rad2).asDiagonal()};
 }
 
 std::optional<PosedCloud> from_message(const keyframe_t& message) {

@@ -77,6 +77,10 @@ pointcloud_t to_message(const Cloud& cloud, const std::string& frame_id, std::in
 pose_t to_message(const StampedPose3& pose);
 pose_t to_message(const StampedPose2& pose);
 
+/// Where a person thinks that the robot is (T_map_base). Nullopt unless it is finite and near
+/// enough, its standard deviations are positive, and its utime is sane.
+std::optional<UncertainPose> from_message(const pose_hint_t& message);
+
 /// A planar pose and its covariance, in the arrays of a message: x, y, yaw; row by row.
 void write(const UncertainPose& from, double (&pose)[3], double (&covariance)[9]);
 

@@ -9,6 +9,7 @@
 #include <voxlist/obstacles_t.hpp>
 #include <voxlist/planar_lidar_t.hpp>
 #include <voxlist/pointcloud_t.hpp>
+#include <voxlist/pose_hint_t.hpp>
 #include <voxlist/pose_t.hpp>
 #include <voxlist/rigid_transform_t.hpp>
 #include <voxlist/uncertain_pose_t.hpp>
@@ -128,6 +129,8 @@ Fault check_lengths(const pointcloud_t& message) {
   for (const std::string& channel : message.channel_names) lengths.text(channel);
   return lengths.fault();
 }
+
+Fault check_lengths(const pose_hint_t&) { return Fault::kNone; }
 
 Fault check_lengths(const pose_t&) { return Fault::kNone; }
 

@@ -171,6 +171,8 @@ void walk(WireReader& in, const pointcloud_t*) {
   in.skip(n_channels * n_points * kFloat);
 }
 
+void walk(WireReader& in, const pose_hint_t*) { in.skip(2 * kInt64 + 5 * kDouble); }
+
 void walk(WireReader& in, const pose_t*) { in.skip(kInt64 + 16 * kDouble); }
 
 void walk(WireReader& in, const rigid_transform_t*) { in.skip(kInt64 + 7 * kDouble); }

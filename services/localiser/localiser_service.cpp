@@ -11,6 +11,7 @@
 #include <voxlist/map_request_t.hpp>
 #include <voxlist/map_update_t.hpp>
 #include <voxlist/pointcloud_t.hpp>
+#include <voxlist/pose_hint_t.hpp>
 #include <voxlist/pose_t.hpp>
 
 #include "voxlist/bus/bus.h"
@@ -78,6 +79,7 @@ LocaliserService::LocaliserService(bus::Bus& bus, bus::Health& health,
       origin_doubt_(config.localiser) {
   bus_.subscribe(bus::kOdometry, [this](const pose_t& message) { take_odometry(message); });
   bus_.subscribe(bus::kMapUpdate, [this](const map_update_t& message) { take_map(message); });
+  bus_.subscribe(bus::kPoseHint, [this](const pose_hint_t& message) { take_hint(message); });
   bus_.subscribe(bus::kCloud, [this](const pointcloud_t& message) { take_cloud(message); });
 }
 
@@ -108,6 +110,14 @@ void LocaliserService::take_odometry(const pose_t& message) {
   const StampedPose2 T_odom_base{pose->utime_us, to_pose2(pose->pose)};
   odometry_.add(T_odom_base, tilt_of(pose->pose));
   carry_on(T_odom_base);
+}
+
+// While the scans say where the robot is, nobody has to.
+void LocaliserService::take_hint(const pose_hint_t& message) {
+  const auto pose = bus::from_message(message);
+  if (!pose) return health_.count("POSE_HINT/not_a_pose");
+  if (message.map_id != 0 && message.map_id != map_id_) return health_.count("POSE_HINT/other_map");
+  health_.count(localiser_.hint(*pose) ? "POSE_HINT/taken" : "POSE_HINT/refused");
 }
 
 // POSE between clouds.

@@ -14,6 +14,7 @@
 
 namespace voxlist {
 class map_update_t;
+class pose_hint_t;
 class pose_t;
 class pointcloud_t;
 }  // namespace voxlist
@@ -43,7 +44,7 @@ struct LocaliserServiceConfig {
   }
 };
 
-/// CLOUD, ODOMETRY and MAP_UPDATE in; POSE, POSE_COVARIANCE, T_MAP_ODOM,
+/// CLOUD, ODOMETRY, MAP_UPDATE and POSE_HINT in; POSE, POSE_COVARIANCE, T_MAP_ODOM,
 /// LOCALISATION and MAP_REQUEST out.
 ///
 /// A cloud waits until the mapper has decided on the cloud before it (bounded by map_wait_s): so a
@@ -82,6 +83,7 @@ class LocaliserService {
   void take_cloud(const pointcloud_t& message);
   void take_odometry(const pose_t& message);
   void carry_on(const StampedPose2& T_odom_base);
+  void take_hint(const pose_hint_t& message);
   void take_map(const map_update_t& message);
   void follow_mapper();
   void follow_move(const bus::MapChange& change);

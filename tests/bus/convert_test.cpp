@@ -7,6 +7,7 @@
 #include <numbers>
 #include <voxlist/keyframe_t.hpp>
 #include <voxlist/pointcloud_t.hpp>
+#include <voxlist/pose_hint_t.hpp>
 #include <voxlist/pose_t.hpp>
 
 namespace voxlist::bus {
@@ -146,6 +147,30 @@ TEST(KeyframeMessage, IsRefusedWhenItContradictsItself) {
   bad = good;
   bad.quat[0] = 2.0;
   EXPECT_FALSE(from_message(bad));
+}
+
+TEST(PoseHintMessage, IsAPoseWithItsDoubtOrNothing) {
+  pose_hint_t message{};
+  message.pose[0] = 3.0;
+  message.pose[2] = 7.0;
+  message.sigma_m = 0.5;
+  message.sigma_rad = 0.2;
+  const auto hint = from_message(message);
+  ASSERT_TRUE(hint);
+  EXPECT_EQ(hint->pose.x_m, 3.0);
+  EXPECT_NEAR(hint->pose.yaw_rad, 7.0 - 2.0 * std::numbers::pi, 1e-12);
+  EXPECT_NEAR(hint->covariance(1, 1), 0.25, 1e-12);
+  EXPECT_NEAR(hint->covariance(2, 2), 0.04, 1e-12);
+  for (double* field : {&message.pose[1], &message.pose[2], &message.sigma_m, &message.sigma_rad}) {
+    const double before = *field;
+    for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()}) {
+      *field = bad;
+      EXPECT_FALSE(from_message(message));
+    }
+    *field = before;
+  }
+  message.sigma_m = 0.0;
+  EXPECT_FALSE(from_message(message));
 }
 
 }  // namespace

@@ -17,6 +17,7 @@
 #include <voxlist/obstacles_t.hpp>
 #include <voxlist/planar_lidar_t.hpp>
 #include <voxlist/pointcloud_t.hpp>
+#include <voxlist/pose_hint_t.hpp>
 #include <voxlist/pose_t.hpp>
 #include <voxlist/rigid_transform_t.hpp>
 #include <voxlist/uncertain_pose_t.hpp>
@@ -88,6 +89,7 @@ class Filler {
   void fill(uncertain_pose_t& m) {
     fill_all(m.utime, m.map_id, m.map_version, m.cloud_utime, m.pose, m.covariance);
   }
+  void fill(pose_hint_t& m) { fill_all(m.utime, m.map_id, m.pose, m.sigma_m, m.sigma_rad); }
   void fill(pose_t& m) { fill_all(m.utime, m.pos, m.vel, m.orientation, m.rotation_rate, m.accel); }
 
   void fill(health_t& m) {

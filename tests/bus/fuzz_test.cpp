@@ -12,6 +12,7 @@
 #include <voxlist/obstacles_t.hpp>
 #include <voxlist/planar_lidar_t.hpp>
 #include <voxlist/pointcloud_t.hpp>
+#include <voxlist/pose_hint_t.hpp>
 #include <voxlist/pose_t.hpp>
 #include <voxlist/rigid_transform_t.hpp>
 #include <voxlist/uncertain_pose_t.hpp>
@@ -49,6 +50,7 @@ class Victim {
     listen(kFreeSpace, Delivery::kEvery, [this](const map_update_t& m) { take_map(m); });
     listen(kLocalisation, Delivery::kEvery, [](const localisation_t&) {});
     listen(kMapRequest, Delivery::kEvery, [](const map_request_t&) {});
+    listen(kPoseHint, Delivery::kEvery, [](const pose_hint_t& m) { from_message(m); });
     listen(kOctomap, Delivery::kEvery, [](const map_octree_t&) {});
     listen(kObstacles, Delivery::kLatest, [](const obstacles_t&) {});
     // A handler that fails counts too.

@@ -11,6 +11,7 @@
 #include <voxlist/map_request_t.hpp>
 #include <voxlist/map_update_t.hpp>
 #include <voxlist/pointcloud_t.hpp>
+#include <voxlist/pose_hint_t.hpp>
 #include <voxlist/pose_t.hpp>
 #include <voxlist/rigid_transform_t.hpp>
 #include <voxlist/uncertain_pose_t.hpp>
@@ -182,6 +183,41 @@ TEST(LocaliserService, FindsACloudInTheMapThatItWasSent) {
   EXPECT_NEAR(found.modes.at(0).pose[1], 0.0, 0.03);
   EXPECT_EQ(found.utime, kStart_us);
   EXPECT_GT(found.poses_examined, 0);
+}
+
+// HEALTH's counter of that name.
+std::int64_t counted(Scene& scene, const std::string& name) {
+  const health_t health = scene.health.last(kStart_us);
+  for (const counter_t& counter : health.counters)
+    if (counter.name == name) return counter.count;
+  return 0;
+}
+
+TEST(LocaliserService, TakesHintsWhileItIsLostAndCountsTheOthers) {
+  Scene scene;
+  scene.begin(map_of_room(), kStart_us);
+  pose_hint_t hint{};
+  hint.utime = kStart_us;
+  hint.sigma_m = 0.5;
+  hint.sigma_rad = 0.3;
+  scene.bus.publish(bus::kPoseHint, hint);
+  pose_hint_t other = hint;
+  other.map_id = 8;
+  scene.bus.publish(bus::kPoseHint, other);
+  other = hint;
+  other.sigma_m = -1.0;
+  scene.bus.publish(bus::kPoseHint, other);
+  scene.run(kStart_us);
+  scene.send_cloud(kStart_us);
+  scene.run(kStart_us);
+  ASSERT_EQ(scene.localisations.size(), 1u);
+  ASSERT_EQ(scene.localisations[0].state, localisation_t::STATE_TRACKING);
+  scene.bus.publish(bus::kPoseHint, hint);
+  scene.run(kStart_us);
+  EXPECT_EQ(counted(scene, "POSE_HINT/taken"), 1);
+  EXPECT_EQ(counted(scene, "POSE_HINT/other_map"), 1);
+  EXPECT_EQ(counted(scene, "POSE_HINT/not_a_pose"), 1);
+  EXPECT_EQ(counted(scene, "POSE_HINT/refused"), 1);
 }
 
 TEST(LocaliserService, TheNextCloudWaitsForTheMappersWordButNotForEver) {

@@ -98,7 +98,14 @@ void Localiser::follow_map() {
   standing_heights_.clear();
 }
 
+bool Localiser::hint(const UncertainPose& pose) {
+  if (map_.empty() || (track_ && !track_->doubtful())) return false;
+  hint_.take(pose);
+  return true;
+}
+
 void Localiser::forget() {
+  hint_.forget();
   track_.reset();
   search_.reset();
   levelling_.forget();
@@ -119,10 +126,12 @@ Localisation Localiser::localise(const Cloud& cloud, const std::optional<Pose2>&
   const std::optional<Pose2> T_level_base = seen_from_above(T_odom_base, odometry_tilt);
   std::optional<Pose2> expected;
   if (track_) expected = track_->predict(cloud.utime_us, T_level_base).pose;
+  hinted_ = hint_.next(T_level_base);
   Localisation result = answered(cloud, expected, odometry_tilt, [&](const PreparedScan& scan) {
     return localise(scan, T_level_base);
   });
   if (result.tracking()) {
+    hint_.forget();
     const PoseMode& best = result.modes.front();
     levelling_.learn(best.T_map_base, best.tilt, result.floor);
   }
@@ -193,6 +202,7 @@ Localisation Localiser::recognise_near(const Cloud& cloud, const UncertainPose& 
 }
 
 void Localiser::take_over(Localiser& other, const Pose2& T_this_other) {
+  hint_.forget();
   track_ = std::move(other.track_);
   search_.reset();
   odometry_check_.clear();
@@ -205,6 +215,7 @@ void Localiser::take_over(Localiser& other, const Pose2& T_this_other) {
 }
 
 void Localiser::move(const Pose2& T_new_old) {
+  hint_.forget();
   search_.reset();
   odometry_check_.clear();
   levelling_.change_map(T_new_old);
@@ -222,27 +233,27 @@ Localisation Localiser::localise(const PreparedScan& scan,
   const Localisation result = search(scan, T_odom_base);
   if (!result.tracking()) return result;
   const PoseMode& mode = result.modes.front();
-  begin_track(scan, T_odom_base, {mode.T_map_base, mode.covariance});
-  search_.reset();
+  start_at(result.utime_us, T_odom_base, {mode.T_map_base, mode.covariance});
   return result;
 }
 
-void Localiser::begin_track(const PreparedScan& scan, const std::optional<Pose2>& T_odom_base,
-                            const UncertainPose& pose) {
-  track_ = std::make_unique<PoseTrack>(scan.cloud().utime_us, T_odom_base, pose, limits());
+void Localiser::start_at(std::int64_t utime_us, const std::optional<Pose2>& T_odom_base,
+                         const UncertainPose& pose) {
+  track_ = std::make_unique<PoseTrack>(utime_us, T_odom_base, pose, limits());
+  search_.reset();
   odometry_check_.clear();
-  odometry_check_.add(scan.cloud().utime_us, pose, T_odom_base);
+  odometry_check_.add(utime_us, pose, T_odom_base);
 }
 
 Localisation Localiser::begin(const PreparedScan& scan, const std::optional<Pose2>& T_odom_base) {
   const Localisation result = origin_of_map(scan);
-  if (result.tracking()) begin_track(scan, T_odom_base, {});
+  if (result.tracking()) start_at(result.utime_us, T_odom_base, {});
   return result;
 }
 
 Localisation Localiser::search(const PreparedScan& scan, const std::optional<Pose2>& T_odom_base) {
   if (!search_) search_ = std::make_unique<LostSearch>(config_.matcher, limits());
-  return search_->add(scan, T_odom_base, matcher());
+  return search_->add(scan, T_odom_base, matcher(), hinted_);
 }
 
 Localisation Localiser::track(const PreparedScan& scan, const std::optional<Pose2>& T_odom_base) {

@@ -13,6 +13,7 @@
 #include "voxlist/matching/localisation/localisation.h"
 #include "voxlist/matching/localisation/thread_arena.h"
 #include "voxlist/matching/motion/level_odometry.h"
+#include "voxlist/matching/motion/pose_hint.h"
 #include "voxlist/voxels/occupancy_map.h"
 
 namespace voxlist::matching {
@@ -93,11 +94,20 @@ class Localiser {
   /// The same for a cloud that was taken near `expected`, T_map_base, or nowhere in the map.
   Localisation recognise_near(const Cloud& cloud, const UncertainPose& expected);
 
+  /// Goes on from a pose that is known (T_map_base).
+  void start_at(std::int64_t utime_us, const std::optional<Pose2>& T_odom_base,
+                const UncertainPose& pose);
+
   /// Goes on where another localiser is in its own map. `T_this_other`: from that map to this one.
   void take_over(Localiser& other, const Pose2& T_this_other);
 
   /// The map was moved under the robot. `T_new_old`: from the map before to the map since.
   void move(const Pose2& T_new_old);
+
+  /// Somebody thinks that the robot is there now (T_map_base): the next scans of a robot that is
+  /// lost are looked for there, too. It is believed only where it would be without the hint.
+  /// Returns false where nobody asks: the map is empty, or the scans say where the robot is.
+  bool hint(const UncertainPose& pose);
 
   /// Forgets where the robot was: the next cloud is searched for in the whole map.
   void forget();
@@ -142,8 +152,6 @@ class Localiser {
                                 const KnownTilt& known, const Locate& locate);
   Localisation answered(const Cloud& cloud, const std::optional<Pose2>& expected,
                         const std::optional<Tilt>& odometry_tilt, const Locate& locate);
-  void begin_track(const PreparedScan& scan, const std::optional<Pose2>& T_odom_base,
-                   const UncertainPose& pose);
   Localisation begin(const PreparedScan& scan, const std::optional<Pose2>& T_odom_base);
   Localisation track(const PreparedScan& scan, const std::optional<Pose2>& T_odom_base);
   Localisation search(const PreparedScan& scan, const std::optional<Pose2>& T_odom_base);
@@ -160,6 +168,8 @@ class Localiser {
   StandingHeights standing_heights_;
   FloorBelief floor_belief_;
   LevelOdometry level_odometry_;
+  PoseHint hint_;
+  std::optional<UncertainPose> hinted_;  // of the cloud that is located
 };
 
 }  // namespace voxlist::matching

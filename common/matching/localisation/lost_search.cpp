@@ -1,7 +1,10 @@
 #include "voxlist/matching/localisation/lost_search.h"
 
 #include <algorithm>
+#include <iterator>
 
+#include "voxlist/matching/engines/global_matcher.h"
+#include "voxlist/matching/localisation/reach_match.h"
 #include "voxlist/matching/localisation/scan_motion.h"
 
 namespace voxlist::matching {
@@ -24,6 +27,8 @@ constexpr double kPlain = 0.99999;
 // off by over one step, with room. Chosen by judgement; a hypothesis that is off by more is found
 // by the search of the whole map, or given up.
 constexpr double kOff_m = 0.3, kOff_rad = 0.12;
+// A hint is looked at no farther than this (m) to each side.
+constexpr double kWidestHint_m = 5.0;
 // Without odometry, scans farther apart in time (s) than this are not matched with each other.
 constexpr double kLongestGap_s = 3.0;
 
@@ -88,6 +93,25 @@ Localisation search(const PreparedScan& scan, Matcher& matcher) {
   return found;
 }
 
+// Whether one scan makes a place probable, beside such rivals as no search would list.
+bool is_likely(const PoseMode& mode) {
+  const LogOdds odds = log_odds_of(mode.support, kModeRatio * mode.support.even, {});
+  return probabilities({&odds, 1}).front() >= kLikely;
+}
+
+// Adds likely places near a hint that the search did not list, as one may that was ended early.
+void add_places_near(const UncertainPose& hint, const PreparedScan& scan, Matcher& matcher,
+                     std::vector<PoseMode>& modes) {
+  PoseWindow window = window_about(hint);
+  window.half_x_m = std::min(window.half_x_m, kWidestHint_m);
+  window.half_y_m = std::min(window.half_y_m, kWidestHint_m);
+  std::vector<PoseMode> places;
+  for (const MatchMode& mode : matcher.match(scan, window).modes)
+    if (!lists(modes, mode.pose)) places.push_back(pose_mode(mode));
+  weigh(matcher, scan, {}, places);
+  std::copy_if(places.begin(), places.end(), std::back_inserter(modes), is_likely);
+}
+
 LocalisationState state_of(const std::vector<PoseMode>& modes) {
   if (modes.empty()) return LocalisationState::kLost;
   if (modes.front().probability >= kSure) return LocalisationState::kTracking;
@@ -135,10 +159,11 @@ Localisation from_match(const PreparedScan& scan, const Match& match) {
 }
 
 Localisation LostSearch::add(const PreparedScan& scan, const std::optional<Pose2>& T_odom_base,
-                             Matcher& matcher) {
+                             Matcher& matcher, const std::optional<UncertainPose>& hint) {
   Localisation result = search(scan, matcher);
   // Nearly blind: the hypotheses wait for a better scan.
   if (scan.near_rays().size() < kFewestMatchPoints) return result;
+  if (hint) add_places_near(*hint, scan, matcher, result.modes);
   follow(scan, T_odom_base);
   find_again(scan, matcher, result.modes);
   hypotheses_.update(result.modes, result.unseen);

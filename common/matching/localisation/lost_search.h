@@ -19,9 +19,10 @@ class LostSearch {
       : config_(config), limits_(limits) {}
 
   /// Modes come with their probabilities, the most probable first. TRACKING: the first is sure.
-  /// AMBIGUOUS: one of the modes is probably right. LOST: probably none.
+  /// AMBIGUOUS: one of the modes is probably right. LOST: probably none. `hint`: likely places near
+  /// it are weighed with those that the search lists, and like them.
   Localisation add(const PreparedScan& scan, const std::optional<Pose2>& T_odom_base,
-                   Matcher& matcher);
+                   Matcher& matcher, const std::optional<UncertainPose>& hint = std::nullopt);
 
  private:
   void follow(const PreparedScan& scan, const std::optional<Pose2>& T_odom_base);

@@ -22,14 +22,6 @@ constexpr double kInMap = 0.5;
 // stations: there the map alone decides, and with even odds 28 of 66 stations are placed.
 constexpr double kVaguest_m = 20.0;
 
-PoseWindow window_of(const UncertainPose& predicted) {
-  const auto half = [&](int i, double least) {
-    return least + kWindowSigmas * std::sqrt(predicted.covariance(i, i));
-  };
-  return {predicted.pose, half(0, kLeastWindow_m), half(1, kLeastWindow_m),
-          std::min(half(2, kLeastWindow_rad), std::numbers::pi)};
-}
-
 // The places that a match lists, with their probabilities.
 ReachMatch ranked(Match match, const UncertainPose& predicted,
                   const std::optional<PoseWindow>& window, double in_reach, Rivals rivals) {
@@ -41,9 +33,17 @@ ReachMatch ranked(Match match, const UncertainPose& predicted,
 
 }  // namespace
 
+PoseWindow window_about(const UncertainPose& pose) {
+  const auto half = [&](int i, double least) {
+    return least + kWindowSigmas * std::sqrt(pose.covariance(i, i));
+  };
+  return {pose.pose, half(0, kLeastWindow_m), half(1, kLeastWindow_m),
+          std::min(half(2, kLeastWindow_rad), std::numbers::pi)};
+}
+
 ReachMatch match_in_reach(Matcher& matcher, const PreparedScan& scan,
                           const UncertainPose& predicted, double in_reach, Rivals rivals) {
-  std::optional<PoseWindow> window = window_of(predicted);
+  std::optional<PoseWindow> window = window_about(predicted);
   if (std::max(window->half_x_m, window->half_y_m) > kWidest_m) window.reset();
   const bool beyond =
       !window && rivals == Rivals::kInReach && worst_sigma_m(predicted.covariance) < kVaguest_m;

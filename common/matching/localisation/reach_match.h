@@ -30,6 +30,9 @@ enum class Rivals {
   kAnywhere,
 };
 
+/// What lies within three standard deviations of a pose, and a little more.
+PoseWindow window_about(const UncertainPose& pose);
+
 /// Where within reach of a prediction a scan was taken: in a window round it, or in the whole map
 /// where the prediction is too vague for one. There, even odds are the most that anything says for
 /// the places found, and a place is sure only beside rivals that overlap a good deal less; unless

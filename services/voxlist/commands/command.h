@@ -22,6 +22,7 @@ void add_merge(CLI::App& program, Command& chosen);
 void add_rebuild(CLI::App& program, Command& chosen);
 void add_localise(CLI::App& program, Command& chosen);
 void add_localise_only(CLI::App& program, Command& chosen);
+void add_hint(CLI::App& program, Command& chosen);
 void add_evaluate(CLI::App& program, Command& chosen);
 void add_info(CLI::App& program, Command& chosen);
 void add_export(CLI::App& program, Command& chosen);

@@ -74,6 +74,7 @@ int run_desk(std::vector<std::string> arguments, Console& console) {
   add_rebuild(program, chosen);
   add_localise(program, chosen);
   add_localise_only(program, chosen);
+  add_hint(program, chosen);
   add_evaluate(program, chosen);
   add_info(program, chosen);
   add_export(program, chosen);

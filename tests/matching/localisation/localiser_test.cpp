@@ -87,6 +87,30 @@ TEST(Localiser, ClaimsNothingFromAHandfulOfPoints) {
   EXPECT_FALSE(localiser.localise(few).tracking());
 }
 
+TEST(Localiser, TakesAHintOnlyWhileNoScanSaysWhereItIs) {
+  const Drive run = drive(1, 2.0);
+  const UncertainPose there{run.truth[0], Eigen::Vector3d(0.25, 0.25, 0.07).asDiagonal()};
+  const OccupancyMap none, map = map_at_truth(run);
+  EXPECT_FALSE(Localiser(none).hint(there));
+  Localiser localiser(map);
+  EXPECT_TRUE(localiser.hint(there));
+  ASSERT_TRUE(localiser.localise(run.clouds[0]).tracking());
+  EXPECT_FALSE(localiser.hint(there));
+}
+
+TEST(Localiser, FindsTheSamePlaceWhetherAHintIsTrueOrFalse) {
+  const Drive run = drive(1, 2.0);
+  const OccupancyMap map = map_at_truth(run);
+  for (const double off_m : {0.5, 30.0}) {
+    Localiser localiser(map);
+    ASSERT_TRUE(localiser.hint({{run.truth[1].x_m + off_m, run.truth[1].y_m, run.truth[1].yaw_rad},
+                                Eigen::Vector3d(0.25, 0.25, 0.07).asDiagonal()}));
+    const Localisation found = localiser.localise(run.clouds[1]);
+    ASSERT_TRUE(found.tracking());
+    EXPECT_LT(distance_m(found.modes.front().T_map_base, run.truth[1]), 0.05);
+  }
+}
+
 // Maps scan by scan, and returns the largest error of a pose.
 double largest_mapping_error_m(const Drive& run, bool with_odometry) {
   OccupancyMap map;

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <optional>
+
 #include "tests/matching/synthetic_room.h"
 
 namespace voxlist::matching {
@@ -15,9 +18,10 @@ class OnePose : public Matcher {
     mode_.pose = pose;
   }
 
-  Match match(const PreparedScan&, const std::optional<PoseWindow>&) override {
+  Match match(const PreparedScan&, const std::optional<PoseWindow>& window) override {
     Match match;
     match.modes.push_back(mode_);
+    if (!window && elsewhere) match.modes.back().pose = *elsewhere;
     match.unseen = unseen_;
     return match;
   }
@@ -46,6 +50,8 @@ class OnePose : public Matcher {
   void map_changed(const ChangedBlocks&) override {}
 
   int asked = 0;
+  // What the search of the whole map lists instead.
+  std::optional<Pose2> elsewhere;
   // What a refinement that knows nothing beforehand has of the pose.
   Eigen::Matrix3d held = Eigen::Matrix3d::Zero();
 
@@ -77,8 +83,9 @@ struct Lost {
     });
   }
 
-  Localisation find(OnePose& matcher) const {
-    return LostSearch({}, {}).add(PreparedScan(scan), std::nullopt, matcher);
+  Localisation find(OnePose& matcher,
+                    const std::optional<UncertainPose>& hint = std::nullopt) const {
+    return LostSearch({}, {}).add(PreparedScan(scan), std::nullopt, matcher, hint);
   }
 };
 
@@ -113,6 +120,43 @@ TEST(LostSearch, IsNeverSureAfterASearchThatDidNotEnd) {
   const Localisation found = lost.find(matcher);
   EXPECT_EQ(matcher.asked, 0);
   EXPECT_FALSE(found.tracking());
+}
+
+UncertainPose hint_at(const Pose2& pose) {
+  return {pose, Eigen::Vector3d(0.25, 0.25, 0.07).asDiagonal()};
+}
+
+bool lists(const Localisation& found, const Pose2& pose) {
+  return std::any_of(found.modes.begin(), found.modes.end(),
+                     [&](const PoseMode& mode) { return mode.T_map_base == pose; });
+}
+
+TEST(LostSearch, WeighsAPlaceNearAHintThatTheSearchMissed) {
+  const Lost lost(0.0);
+  OnePose matcher(lost.map, lost.truth, 0.88);
+  matcher.elsewhere = lost.truth * Pose2{1.0, 0.5, 0.5};
+  EXPECT_FALSE(lists(lost.find(matcher), lost.truth));
+  const Localisation found = lost.find(matcher, hint_at(lost.truth));
+  ASSERT_FALSE(found.modes.empty());
+  EXPECT_EQ(found.modes.front().T_map_base, lost.truth);
+  EXPECT_TRUE(found.tracking());
+}
+
+TEST(LostSearch, AHintMakesNoPlaceSureThatWouldNotBeWithoutIt) {
+  const Lost lost(0.0);
+  OnePose matcher(lost.map, lost.truth, 1.0);
+  EXPECT_FALSE(lost.find(matcher, hint_at(lost.truth)).tracking());
+}
+
+TEST(LostSearch, PassesOverAHintAtWhichNothingFits) {
+  const Lost lost(0.0);
+  const Pose2 elsewhere = lost.truth * Pose2{1.0, 0.5, 0.5};
+  OnePose matcher(lost.map, elsewhere, 0.88);
+  matcher.elsewhere = lost.truth;
+  const Localisation found = lost.find(matcher, hint_at(elsewhere));
+  ASSERT_FALSE(found.modes.empty());
+  EXPECT_EQ(found.modes.front().T_map_base, lost.truth);
+  EXPECT_FALSE(lists(found, elsewhere));
 }
 
 }  // namespace
