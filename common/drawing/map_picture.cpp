@@ -15,6 +15,8 @@ namespace {
 
 using Eigen::Vector2d;
 
+constexpr io::Rgb kBefore{120, 126, 136};
+constexpr io::Rgb kLoop{255, 214, 64};
 constexpr int kMargin = MapLayout::kMargin, kWidth = MapLayout::kWidth;
 
 struct HeightRange {
@@ -111,6 +113,20 @@ void draw_height_legend(Picture& picture, const HeightRange& heights, double rig
                TextAnchor::kRight);
 }
 
+void draw_before(Picture& picture, const MapLayout& layout, const ClosedLoops& closed) {
+  std::vector<Vector2d> pixels;
+  for (const Vector2d& place : closed.before) pixels.push_back(layout.pixel(place));
+  picture.line(pixels, 1.5, kBefore);
+}
+
+void draw_loops(Picture& picture, const MapLayout& layout, const ClosedLoops& closed) {
+  for (const auto& [from, to] : closed.loops) {
+    picture.line({layout.pixel(from), layout.pixel(to)}, 2.0, kLoop);
+    picture.disc(layout.pixel(from), 7.0, kLoop);
+    picture.disc(layout.pixel(to), 7.0, kLoop);
+  }
+}
+
 void draw_footer(Picture& picture, const MapLayout& layout, const MapView& view,
                  const HeightRange& heights) {
   constexpr double kGap = 34.0;
@@ -123,7 +139,11 @@ void draw_footer(Picture& picture, const MapLayout& layout, const MapView& view,
     x = draw_mark(picture, x, y, kStart, "start") + kGap;
     x = draw_mark(picture, x, y, kPath, "end") + kGap;
   }
-  if (!view.free.empty()) draw_mark(picture, x, y, kFree, "free");
+  if (!view.free.empty()) x = draw_mark(picture, x, y, kFree, "free") + kGap;
+  if (!view.closed.loops.empty()) {
+    x = draw_mark(picture, x, y, kLoop, "loops") + kGap;
+    draw_mark(picture, x, y, kBefore, "before");
+  }
 }
 
 }  // namespace
@@ -140,7 +160,9 @@ Picture draw_map(const MapView& view) {
   draw_columns(plan, layout, columns, heights);
   Picture picture(kWidth, side_top + side.height() + kFooter, kUnknown);
   picture.paste(plan, 0, 0);
+  draw_before(picture, layout, view.closed);
   draw_path(picture, layout, view.path);
+  draw_loops(picture, layout, view.closed);
   draw_side(picture, layout, side, heights, view.path, side_top);
   draw_footer(picture, layout, view, heights);
   return picture;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "voxlist/drawing/map_picture.h"
 #include "voxlist/io/clouds/cloud_file.h"
 #include "voxlist/io/poses/trajectory.h"
 
@@ -44,13 +43,15 @@ std::vector<Eigen::Vector2f> free_squares(const VoxelMap& passed,
 }  // namespace
 
 void write_map_views(const std::filesystem::path& folder, const OccupancyMap& map,
-                     const std::vector<StampedPose3>& trajectory) {
+                     const std::vector<StampedPose3>& trajectory,
+                     const drawing::ClosedLoops& closed) {
   drawing::MapView view;
   view.occupied = centres_of(map.occupied);
   view.resolution_m = map.occupied.resolution_m();
   for (const StampedPose3& pose : trajectory) view.path.push_back(pose.pose.translation());
   view.free = free_squares(map.passed, view.path);
   view.free_m = map.passed.resolution_m();
+  view.closed = closed;
 
   io::write_tum(folder / "trajectory.tum", trajectory);
   io::write_ply(folder / "map.ply", view.occupied, io::colours_by_height(view.occupied));

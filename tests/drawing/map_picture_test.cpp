@@ -78,6 +78,19 @@ TEST(MapPicture, ShowsPathScaleAndHeights) {
   EXPECT_GT(with.count(kInk), without.count(kInk) + 40U);
 }
 
+TEST(MapPicture, ShowsLoopsAndThePathBeforeTheyWereClosed) {
+  MapView view = view_of(room(), {{1.0, 1.0, 0.0}, {5.0, 3.0, 0.0}});
+  const test::Pixels without = test::pixels_of(draw_map(view));
+  view.closed = {{{Eigen::Vector2d(1.0, 1.0), Eigen::Vector2d(1.0, 3.0)}},
+                 {{1.0, 1.2}, {3.0, 1.2}, {5.0, 2.0}}};
+  const test::Pixels with = test::pixels_of(draw_map(view));
+  constexpr io::Rgb kLoop{255, 214, 64}, kBefore{120, 126, 136};
+  EXPECT_EQ(without.count(kLoop), 0U);
+  EXPECT_EQ(without.count(kBefore), 0U);
+  EXPECT_GT(with.count(kLoop), 300U);
+  EXPECT_GT(with.count(kBefore), 300U);
+}
+
 // A ramp that rises by 1 m over 10 m.
 TEST(MapPicture, ShowsFromTheSideThatTheFloorRises) {
   std::vector<Eigen::Vector3f> ramp;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 namespace voxlist::mapping {
 namespace {
@@ -39,11 +40,12 @@ UncertainPose in_window(UncertainPose predicted) {
 
 class Search {
  public:
-  Search(const PoseTree& tree, const ReadCloud& read, const matching::MatcherConfig& config)
-      : tree_(tree), read_(read), config_(config) {}
+  Search(const PoseTree& tree, const ReadCloud& read, const matching::MatcherConfig& config,
+         LookMemory* memory)
+      : tree_(tree), read_(read), config_(config), memory_(memory) {}
 
   // Several threads at once, the same for any number of them.
-  std::vector<Loop> look() const {
+  std::vector<Loop> find() const {
     const std::vector<std::size_t> from = places();
     std::vector<std::vector<Loop>> found(from.size());
     tbb::parallel_for(std::size_t{0}, from.size(),
@@ -63,18 +65,38 @@ class Search {
 
   std::vector<Loop> look_from(std::size_t keyframe) const {
     if (!nearest_open(keyframe, config_.scan.max_range_m)) return {};
+    const auto known = memory_ ? memory_->loop_look(keyframe) : std::nullopt;
+    if (known && known->look == look(keyframe, known->look.reach_m)) return known->places;
     const Cloud cloud = read_(keyframe);
     const matching::PreparedScan scan(cloud, config_.scan);
-    const auto old = nearest_open(keyframe, scan.reach_m());
-    if (!old) return {};
-    const UncertainPose predicted = in_window(tree_.between(*old, keyframe));
-    const double told_m = kTold * worst_sigma_m(predicted.covariance);
-    const auto found = map_round(*old, keyframe).match(scan, predicted);
+    const LoopLook now = look(keyframe, scan.reach_m());
+    std::vector<Loop> places;
+    if (!now.round.empty()) places = places_named(now, scan);
+    if (memory_) memory_->keep({now, places});
+    return places;
+  }
+
+  // What a look goes by; round nothing where the keyframe sees no ground of long before.
+  LoopLook look(std::size_t keyframe, double reach_m) const {
+    LoopLook look{keyframe, reach_m};
+    const auto old = nearest_open(keyframe, reach_m);
+    if (!old) return look;
+    look.from = *old;
+    look.predicted = in_window(tree_.between(*old, keyframe));
+    look.round = round(*old, keyframe);
+    return look;
+  }
+
+  std::vector<Loop> places_named(const LoopLook& look, const matching::PreparedScan& scan) const {
+    const double told_m = kTold * worst_sigma_m(look.predicted.covariance);
+    LocalMap map(config_);
+    for (const auto& [i, T_from_i] : look.round) map.add(read_(i), T_from_i);
+    const auto found = map.match(scan, look.predicted);
     const auto& modes = found.match.modes;
     std::vector<Loop> loops;
     for (std::size_t i = 0; i < modes.size() && loops.size() < kMostPlaces; ++i)
       if (worst_sigma_m(modes[i].covariance) <= told_m)
-        loops.push_back(loop(*old, keyframe, modes[i], found.probabilities[i]));
+        loops.push_back(loop(look.from, look.keyframe, modes[i], found.probabilities[i]));
     return loops;
   }
 
@@ -104,32 +126,31 @@ class Search {
     return nearest;
   }
 
-  LocalMap map_round(std::size_t centre, std::size_t keyframe) const {
-    std::vector<std::size_t> round;
+  // Old keyframes round one of them, and where they stand as it sees them.
+  std::vector<std::pair<std::size_t, Pose2>> round(std::size_t centre, std::size_t keyframe) const {
+    std::vector<std::size_t> near;
     for (std::size_t i = 0; i < tree_.size(); ++i)
-      if (tree_.way_m(centre, i) <= kRound_m && is_open(i, keyframe)) round.push_back(i);
+      if (tree_.way_m(centre, i) <= kRound_m && is_open(i, keyframe)) near.push_back(i);
     const auto away_m = [&](std::size_t i) {
       return distance_m(tree_.pose(i), tree_.pose(centre));
     };
-    std::stable_sort(round.begin(), round.end(),
+    std::stable_sort(near.begin(), near.end(),
                      [&](std::size_t a, std::size_t b) { return away_m(a) < away_m(b); });
-    LocalMap map(config_);
-    std::vector<std::size_t> taken;
-    for (const std::size_t i : round) {
+    std::vector<std::pair<std::size_t, Pose2>> taken;
+    for (const std::size_t i : near) {
       if (taken.size() == kMostKeyframes) break;
-      const bool apart = std::all_of(taken.begin(), taken.end(), [&](std::size_t other) {
-        return distance_m(tree_.pose(i), tree_.pose(other)) >= kApart_m;
+      const bool apart = std::all_of(taken.begin(), taken.end(), [&](const auto& other) {
+        return distance_m(tree_.pose(i), tree_.pose(other.first)) >= kApart_m;
       });
-      if (!apart) continue;
-      map.add(read_(i), tree_.between(centre, i).pose);
-      taken.push_back(i);
+      if (apart) taken.emplace_back(i, tree_.between(centre, i).pose);
     }
-    return map;
+    return taken;
   }
 
   const PoseTree& tree_;
   const ReadCloud& read_;
   const matching::MatcherConfig config_;
+  LookMemory* const memory_;
 };
 
 }  // namespace
@@ -141,8 +162,8 @@ bool is_long_way(double way_m, double away_m) {
 }
 
 std::vector<Loop> find_loops(const PoseTree& tree, const ReadCloud& read,
-                             const matching::MatcherConfig& config) {
-  return Search(tree, read, config).look();
+                             const matching::MatcherConfig& config, LookMemory* memory) {
+  return Search(tree, read, config, memory).find();
 }
 
 }  // namespace voxlist::mapping

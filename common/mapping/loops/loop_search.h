@@ -4,6 +4,7 @@
 
 #include "voxlist/mapping/graph/loop_choice.h"
 #include "voxlist/mapping/loops/local_map.h"
+#include "voxlist/mapping/loops/look_memory.h"
 
 namespace voxlist::mapping {
 
@@ -15,7 +16,8 @@ bool is_long_way(double way_m, double away_m);
 /// tells: each keyframe that may see such ground is searched for round where the drive has it, in a
 /// map of those keyframes only.
 /// Matched with a map that has both, it would be held where it is by what it saw just before.
+/// What the memory knows is not searched for again; it keeps the rest.
 std::vector<Loop> find_loops(const PoseTree& tree, const ReadCloud& read,
-                             const matching::MatcherConfig& config);
+                             const matching::MatcherConfig& config, LookMemory* memory = nullptr);
 
 }  // namespace voxlist::mapping

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "voxlist/mapping/graph/pose_edge.h"
+#include "voxlist/mapping/loops/look_memory.h"
 #include "voxlist/mapping/loops/neighbour_look.h"
 #include "voxlist/mapping/loops/odometry_step.h"
 
@@ -18,7 +19,7 @@ struct MapClosing {
   /// Those that agree with each other and were not believed: they would move the past by more than
   /// it may be off.
   std::size_t refused = 0;
-  /// What holds the keyframes where loops are closed: by the drive, and by loops.
+  /// What holds the keyframes where loops are closed: by the drive, then by loops.
   std::vector<PoseEdge> edges;
   /// Whether keyframes are to be moved. A drive that was tracked on its own old ground is closed.
   bool moves = false;
@@ -29,9 +30,10 @@ struct MapClosing {
 /// empty. A match for each keyframe and its neighbour and one each 2 m, 10 to 30 ms each, where the
 /// drive came back or has a step of more than 10 m; next to nothing where it did not. Several
 /// matches at once, on the threads of the caller's arena; `read_cloud` is asked by one at a time.
-/// `known`: looks of neighbours that were taken before; the answer is the same without them.
+/// `known`: looks of neighbours that were taken before; `memory`: all looks that were, it keeps the
+/// others. The answer is the same without them.
 MapClosing close_map(const std::vector<Pose2>& poses, const DriveOdometry& odometry,
                      const ReadCloud& read_cloud, const matching::MatcherConfig& config,
-                     const KnownLook& known = {});
+                     const KnownLook& known = {}, LookMemory* memory = nullptr);
 
 }  // namespace voxlist::mapping

@@ -44,20 +44,29 @@ UncertainPose mean_of(const UncertainPose& a, const UncertainPose& b) {
   return both;
 }
 
+std::optional<NeighbourLook> taken_before(std::size_t from, std::size_t to,
+                                          const NeighbourLook& expected, const KnownLook& known,
+                                          const LookMemory* memory) {
+  const NeighbourLook* look = known ? known(from, to) : nullptr;
+  if (look && are_alike(*look, expected)) return *look;
+  return memory ? memory->neighbours(from, to, expected) : std::nullopt;
+}
+
 // Keyframe i with the one before it; several threads at once, the same for any number of them.
 std::vector<NeighbourLook> look_at_neighbours(const std::vector<Pose2>& poses,
                                               const ReadCloud& read,
                                               const matching::MatcherConfig& config,
-                                              const KnownLook& known) {
+                                              const KnownLook& known, LookMemory* memory) {
   std::vector<NeighbourLook> looks(poses.size());
   const std::size_t parts = (poses.size() + kPairsAtOnce - 1) / kPairsAtOnce;
   tbb::parallel_for(std::size_t{0}, parts, [&](std::size_t part) {
     NeighbourLooker looker(read, config);
     const std::size_t end = std::min((part + 1) * kPairsAtOnce, poses.size());
     for (std::size_t i = std::max<std::size_t>(part * kPairsAtOnce, 1); i < end; ++i) {
-      const NeighbourLook* before = known ? known(i - 1, i) : nullptr;
-      const bool is_known = before && are_alike(*before, no_look_yet(poses[i - 1], poses[i]));
-      looks[i] = is_known ? *before : looker.look(i - 1, i, poses[i - 1], poses[i]);
+      const NeighbourLook expected = no_look_yet(poses[i - 1], poses[i]);
+      const auto before = taken_before(i - 1, i, expected, known, memory);
+      looks[i] = before ? *before : looker.look(i - 1, i, poses[i - 1], poses[i]);
+      if (memory && !before) memory->keep(i - 1, i, looks[i]);
     }
   });
   return looks;
@@ -66,12 +75,12 @@ std::vector<NeighbourLook> look_at_neighbours(const std::vector<Pose2>& poses,
 class Neighbours {
  public:
   Neighbours(const std::vector<Pose2>& poses, const DriveOdometry& odometry, const ReadCloud& read,
-             const matching::MatcherConfig& config, const KnownLook& known)
+             const matching::MatcherConfig& config, const KnownLook& known, LookMemory* memory)
       : poses_(poses),
         odometry_(odometry),
         read_(read),
         config_(config),
-        looks_(look_at_neighbours(poses, read, config, known)),
+        looks_(look_at_neighbours(poses, read, config, known, memory)),
         looker_(read, config),
         part_(poses.size()) {
     std::iota(part_.begin(), part_.end(), std::size_t{0});
@@ -183,9 +192,9 @@ class Neighbours {
 
 std::vector<PoseEdge> join_neighbours(const std::vector<Pose2>& poses,
                                       const DriveOdometry& odometry, const ReadCloud& read,
-                                      const matching::MatcherConfig& config,
-                                      const KnownLook& known) {
-  return in_tree_order(Neighbours(poses, odometry, read, config, known).join());
+                                      const matching::MatcherConfig& config, const KnownLook& known,
+                                      LookMemory* memory) {
+  return in_tree_order(Neighbours(poses, odometry, read, config, known, memory).join());
 }
 
 }  // namespace voxlist::mapping

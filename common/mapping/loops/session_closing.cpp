@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <span>
 
 #include "voxlist/geometry/tilt.h"
 #include "voxlist/mapping/graph/pose_graph.h"
@@ -57,7 +58,8 @@ Order order_of_drive(const MapKeyframes& keyframes) {
 }
 
 SessionClosing close_sessions(const MapKeyframes& keyframes, const ReadCloud& read,
-                              const matching::MatcherConfig& config, const KnownLook& known) {
+                              const matching::MatcherConfig& config, const KnownLook& known,
+                              LookMemory* memory) {
   const Order order = order_of_drive(keyframes);
   std::vector<Pose2> poses;
   DriveOdometry odometry;
@@ -71,7 +73,8 @@ SessionClosing close_sessions(const MapKeyframes& keyframes, const ReadCloud& re
       return known(order[from], order[to]);
     };
   const MapClosing closed = close_map(
-      poses, odometry, [&](std::size_t i) { return read(order[i]); }, config, known_in_drive);
+      poses, odometry, [&](std::size_t i) { return read(order[i]); }, config, known_in_drive,
+      memory);
   SessionClosing closing;
   closing.loops = closed.loops;
   closing.refused = closed.refused;
@@ -80,6 +83,16 @@ SessionClosing close_sessions(const MapKeyframes& keyframes, const ReadCloud& re
   if (closed.moves)
     move(keyframes, in_file(closed.poses, order, keyframes.front().T_map_keyframe), closing);
   return closing;
+}
+
+drawing::ClosedLoops drawn(const MapKeyframes& before, const SessionClosing& closing) {
+  drawing::ClosedLoops drawn;
+  if (!closing.moves) return drawn;
+  const auto place = [](const Pose2& pose) { return Eigen::Vector2d(pose.x_m, pose.y_m); };
+  for (const auto& keyframe : before) drawn.before.push_back(place(keyframe.T_map_keyframe));
+  for (const PoseEdge& loop : std::span(closing.edges).last(closing.loops))
+    drawn.loops.push_back({place(closing.poses[loop.from]), place(closing.poses[loop.to])});
+  return drawn;
 }
 
 Cloud level_cloud(const Keyframe& keyframe) {

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <vector>
+
+#include "voxlist/drawing/map_picture.h"
 #include "voxlist/mapping/graph/stored_graph.h"
 #include "voxlist/mapping/loops/map_closing.h"
 
@@ -12,7 +15,7 @@ using MapKeyframes = std::vector<StoredGraph::Keyframe>;
 struct SessionClosing {
   /// T_map_keyframe of each; as they were where nothing is to be closed.
   std::vector<Pose2> poses;
-  /// What holds them, as MapClosing has it.
+  /// What holds them: by the drive, then by loops.
   std::vector<PoseEdge> edges;
   std::size_t loops = 0, refused = 0;
   /// How far the keyframe is moved that is moved farthest (m), and that is turned farthest (rad).
@@ -25,9 +28,13 @@ std::vector<std::size_t> order_of_drive(const MapKeyframes& keyframes);
 
 /// Closes the loops of a map, all sessions taken as one drive. The first keyframe stays. `read`
 /// and `known` (looks that were taken before, as close_map() has them) take keyframes' places in
-/// `keyframes`.
+/// `keyframes`; those of the memory are in the order of the drive.
 SessionClosing close_sessions(const MapKeyframes& keyframes, const ReadCloud& read,
-                              const matching::MatcherConfig& config, const KnownLook& known = {});
+                              const matching::MatcherConfig& config, const KnownLook& known = {},
+                              LookMemory* memory = nullptr);
+
+/// What a picture of the map shows of that: nothing where nothing moves.
+drawing::ClosedLoops drawn(const MapKeyframes& before, const SessionClosing& closing);
 
 /// A keyframe's cloud as a level robot has it: poses are searched for in the plane.
 Cloud level_cloud(const Keyframe& keyframe);

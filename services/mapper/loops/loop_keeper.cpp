@@ -35,6 +35,7 @@ struct LoopKeeper::Work {
   mapping::MapKeyframes keyframes;
   std::unique_ptr<mapping::StoredKeyframes> stored;
   mapping::SessionClosing closing;
+  drawing::ClosedLoops drawn;
   std::optional<mapping::MapBuilder> builder;
   Pose2 T_new_old;
   // No keyframe comes any more: what moves at all is moved, as at the desk.
@@ -79,6 +80,7 @@ void LoopKeeper::restore(const mapping::StoredGraph::Keyframe& keyframe) {
 void LoopKeeper::clear() {
   background_.cancel();
   work_.reset();
+  memory_.clear();
   newest_looked_at_ = 0;
   keyframes_.clear();
   watch_.clear();
@@ -122,10 +124,10 @@ void LoopKeeper::begin(const Open& open) {
   work_ = std::make_shared<Work>();
   work_->keyframes = keyframes_;
   work_->stored = std::move(stored);
-  background_.start([work = work_](const Background::Stop& stop) {
+  background_.start([this, work = work_](const Background::Stop& stop) {
     const auto read = [&](std::size_t i) { return mapping::level_cloud(work->read(i, stop)); };
     matching::ThreadArena(1).run(
-        [&] { work->closing = mapping::close_sessions(work->keyframes, read, {}); });
+        [&] { work->closing = mapping::close_sessions(work->keyframes, read, {}, {}, &memory_); });
   });
 }
 
@@ -151,6 +153,7 @@ bool LoopKeeper::prepare() {
   const auto& closing = work_->closing;
   tell(closing);
   if (!work_->moves_enough()) return false;
+  work_->drawn = mapping::drawn(work_->keyframes, closing);
   work_->T_new_old = closing.poses.back() * work_->keyframes.back().T_map_keyframe.inverse();
   for (std::size_t i = 0; i < closing.poses.size(); ++i)
     work_->keyframes[i].T_map_keyframe = closing.poses[i];
@@ -177,7 +180,7 @@ std::optional<ClosedMap> LoopKeeper::taken() try {
   static const Background::Stop never = false;
   const auto work = std::exchange(work_, nullptr);
   work->build(never);
-  return ClosedMap{work->keyframes, work->closing.edges, std::move(*work->builder),
+  return ClosedMap{work->keyframes, work->closing.edges, work->drawn, std::move(*work->builder),
                    work->T_new_old};
 } catch (const std::exception&) {
   health_.count("loops/failed");

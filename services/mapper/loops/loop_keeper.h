@@ -9,6 +9,7 @@
 
 #include "services/mapper/loops/background.h"
 #include "services/mapper/loops/return_watch.h"
+#include "voxlist/mapping/loops/look_memory.h"
 #include "voxlist/mapping/loops/session_closing.h"
 #include "voxlist/mapping/map_store.h"
 
@@ -34,6 +35,8 @@ struct ClosedMap {
   /// Where each keyframe stands, and what holds it.
   mapping::MapKeyframes keyframes;
   std::vector<mapping::PoseEdge> edges;
+  /// What a picture shows of its loops.
+  drawing::ClosedLoops drawn;
   /// All keyframes, where they stand.
   mapping::MapBuilder builder;
   /// How the newest one was moved.
@@ -92,6 +95,8 @@ class LoopKeeper {
   ReturnWatch watch_;
   std::optional<std::int64_t> next_us_;
   std::size_t newest_looked_at_ = 0;  // so many keyframes were there when a search began
+  // What was looked at is not looked at again, whatever became of it.
+  mapping::LookMemory memory_;
   std::shared_ptr<Work> work_;
   Background background_;
 };

@@ -82,22 +82,25 @@ class Trajectory {
   std::size_t were_there_ = 0;
 };
 
-// All sessions together, unless it was interrupted: then there may be little time.
-bool close_loops(ExtendedMap& map, const DeskSettings& settings, RunFigures& figures) {
-  if (stop_requested()) return false;
+// All sessions together: what moved the map. Not where it was interrupted: then there may be little
+// time.
+std::optional<drawing::ClosedLoops> close_loops(ExtendedMap& map, const DeskSettings& settings,
+                                                RunFigures& figures) {
+  if (stop_requested()) return std::nullopt;
+  const mapping::MapKeyframes before = map.keyframes();
   const mapping::SessionClosing closing = map.close(settings.localiser.matcher);
   figures.loops = static_cast<std::int64_t>(closing.loops);
   figures.loops_refused = static_cast<std::int64_t>(closing.refused);
   figures.loops_moved_m = closing.moved_m;
-  return closing.moves;
+  return closing.moves ? std::optional(mapping::drawn(before, closing)) : std::nullopt;
 }
 
 void write(const ExtendOptions& options, const DeskSettings& settings, const OccupancyMap& made,
            const ExtendedMap& map, const std::vector<StampedPose3>& trajectory,
-           const RunFigures& figures, Console& console) {
+           const drawing::ClosedLoops& closed, const RunFigures& figures, Console& console) {
   const VoxelMap& voxels = made.occupied;
   MapFiles files(options.folder);
-  files.write_views(made, trajectory);
+  files.write_views(made, trajectory, closed);
   tell(options, voxels, figures, map, console);
   files.write_octomap(settings.octomap, settings.localiser.threads, !options.making.no_octomap,
                       console);
@@ -123,10 +126,11 @@ int extend(const ExtendOptions& options, Console& console) {
   RunFigures figures = place_all(input, run, console);
   if (figures.placed == 0) return tell_not_found(options, figures, console);
   Trajectory trajectory(options.folder, map, run);
-  const bool moved = close_loops(map, settings, figures);
+  const auto moved = close_loops(map, settings, figures);
   const mapping::MapBuilder rebuilt = moved ? map.rebuilt() : mapping::MapBuilder();
   const OccupancyMap& made = (moved ? rebuilt : run.builder()).map();
-  write(options, settings, made, map, trajectory.moved(), figures, console);
+  write(options, settings, made, map, trajectory.moved(), moved.value_or(drawing::ClosedLoops()),
+        figures, console);
   for (const std::string& line : {refused_loops(figures), shortfall(figures)})
     if (!line.empty()) console.warn(line);
   return 0;

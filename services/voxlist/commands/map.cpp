@@ -129,8 +129,9 @@ int map(const MapOptions& options, Console& console) {
   const VoxelMap& voxels = run.builder().map().occupied;
   // The picture is drawn while keyframes are written and the OctoMap is made.
   const int threads = settings.localiser.threads;
-  auto views = std::async(threads == 1 ? std::launch::deferred : std::launch::async,
-                          [&] { files.write_views(run.builder().map(), run.trajectory()); });
+  auto views = std::async(threads == 1 ? std::launch::deferred : std::launch::async, [&] {
+    files.write_views(run.builder().map(), run.trajectory(), run.closed_loops());
+  });
   files.write_keyframes(spool, run.keyframes(), voxels);
   tell(options, run, figures, console);
   if (figures.interrupted) console.warn("interrupted: the map ends there");

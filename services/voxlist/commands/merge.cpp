@@ -105,12 +105,13 @@ RunFigures figures_of(const MergeOptions& options, const Piece& piece,
 }
 
 void write(const MergeOptions& options, const DeskSettings& settings, const Piece& piece,
-           mapping::KeyframeSpool& spool, const RunFigures& figures, Console& console) {
+           mapping::KeyframeSpool& spool, const RunFigures& figures,
+           const drawing::ClosedLoops& closed, Console& console) {
   MapFiles files(options.folder);
   const FileLock lock = mapping::lock_folder(options.folder);
   refuse_with_map(options.folder);
   const VoxelMap& voxels = piece.builder().map().occupied;
-  files.write_views(piece.builder().map(), by_time(piece.trajectory()));
+  files.write_views(piece.builder().map(), by_time(piece.trajectory()), closed);
   files.write_keyframes(spool, piece.keyframes(), voxels);
   files.write_octomap(settings.octomap, settings.localiser.threads, !options.making.no_octomap,
                       console);
@@ -138,9 +139,10 @@ int merge(const MergeOptions& options, Console& console) {
   }
   piece->begin_session();
   piece->join(*other, *meeting.T_map_other);
-  const RunFigures figures = figures_of(options, *piece, close_piece(*piece, spool, matcher));
+  const PieceClosing closing = close_piece(*piece, spool, matcher);
+  const RunFigures figures = figures_of(options, *piece, closing);
   refuse_after_interrupt(options.folder);
-  write(options, settings, *piece, spool, figures, console);
+  write(options, settings, *piece, spool, figures, closing.drawn, console);
   console.say(fmt::format(
       "{} of {} scans on ground of both fit: {} and {} keyframes, {} voxels, hash {}",
       meeting.fitting, meeting.asked, piece->first_session(), other->keyframes().size(),

@@ -41,9 +41,9 @@ void MapFiles::write_keyframes(mapping::KeyframeSpool& spool,
   mapping::remove_graph(folder_);
 }
 
-void MapFiles::write_views(const OccupancyMap& map,
-                           const std::vector<StampedPose3>& trajectory) const {
-  mapping::write_map_views(folder_, map, trajectory);
+void MapFiles::write_views(const OccupancyMap& map, const std::vector<StampedPose3>& trajectory,
+                           const drawing::ClosedLoops& closed) const {
+  mapping::write_map_views(folder_, map, trajectory, closed);
 }
 
 void MapFiles::write_octomap(const planning::OctomapConfig& config, int threads, bool wanted,

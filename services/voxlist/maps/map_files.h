@@ -6,6 +6,7 @@
 #include "services/voxlist/maps/summary.h"
 #include "services/voxlist/output/console.h"
 #include "services/voxlist/output/fresh_file.h"
+#include "voxlist/drawing/map_picture.h"
 #include "voxlist/geometry/cloud.h"
 #include "voxlist/mapping/keyframe_spool.h"
 #include "voxlist/planning/octomap.h"
@@ -25,7 +26,8 @@ class MapFiles {
                        const VoxelMap& map) const;
 
   /// Writes trajectory, voxels and picture. Throws FileError.
-  void write_views(const OccupancyMap& map, const std::vector<StampedPose3>& trajectory) const;
+  void write_views(const OccupancyMap& map, const std::vector<StampedPose3>& trajectory,
+                   const drawing::ClosedLoops& closed = {}) const;
 
   /// Writes the OctoMap of the folder's keyframes, or takes the old one away where none is wanted
   /// or after Ctrl-C. So many threads mark rays at most; 0: as many as there are processors.

@@ -52,6 +52,9 @@ class MapRun {
   /// The map's keyframes in the spool; none of a map that was there.
   const std::vector<mapping::SpooledKeyframe>& keyframes() const { return map().keyframes(); }
 
+  /// The loops that finish() closed.
+  const drawing::ClosedLoops& closed_loops() const { return closing_.drawn; }
+
   /// What became of the scans, and no more than that.
   RunFigures figures() const;
 

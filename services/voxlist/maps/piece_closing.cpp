@@ -26,11 +26,11 @@ PieceClosing close_piece(Piece& piece, mapping::KeyframeSpool& spool,
     const auto at = looks.find({keyframes[from].index, keyframes[to].index});
     return at == looks.end() ? nullptr : &at->second;
   };
+  const mapping::MapKeyframes before = keyframes_of(piece);
   const mapping::SessionClosing closed = mapping::close_sessions(
-      keyframes_of(piece), [&](std::size_t i) { return level_cloud(spool, keyframes[i]); }, config,
-      known);
+      before, [&](std::size_t i) { return level_cloud(spool, keyframes[i]); }, config, known);
   if (closed.moves) piece.move_keyframes(closed.poses);
-  return {closed.loops, closed.refused, closed.moved_m};
+  return {closed.loops, closed.refused, closed.moved_m, mapping::drawn(before, closed)};
 }
 
 }  // namespace voxlist::desk

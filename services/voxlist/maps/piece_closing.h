@@ -2,6 +2,7 @@
 
 #include "services/voxlist/maps/ahead/look_ahead.h"
 #include "services/voxlist/maps/piece.h"
+#include "voxlist/drawing/map_picture.h"
 #include "voxlist/mapping/loops/session_closing.h"
 
 namespace voxlist::desk {
@@ -11,6 +12,7 @@ struct PieceClosing {
   std::size_t loops = 0, refused = 0;
   /// How far the keyframe was moved that was moved farthest (m).
   double moved_m = 0.0;
+  drawing::ClosedLoops drawn;
 };
 
 /// A keyframe's cloud as a level robot has it: poses are searched for in the plane.

@@ -18,13 +18,15 @@ class MapClosingTest : public testing::Test {
     return scan_block(pose, i + 1, range_m_);
   }
 
-  MapClosing close(const std::vector<Pose2>& poses, const DriveOdometry& odometry = {}) {
-    return close_map(poses, odometry,
-                     [&](std::size_t i) {
-                       ++reads_;
-                       return scan(truth_[i], i);
-                     },
-                     {});
+  MapClosing close(const std::vector<Pose2>& poses, const DriveOdometry& odometry = {},
+                   LookMemory* memory = nullptr) {
+    return close_map(
+        poses, odometry,
+        [&](std::size_t i) {
+          ++reads_;
+          return scan(truth_[i], i);
+        },
+        {}, {}, memory);
   }
 
   std::vector<Pose2> truth_ = way_round(12.0);
@@ -43,6 +45,21 @@ TEST_F(MapClosingTest, ADriveRoundABlockCloses) {
   EXPECT_LT(rmse_m(closing.poses, truth_), 0.03);
   EXPECT_EQ(closing.refused, 0u);
   EXPECT_EQ(closing.poses, close(before).poses);
+}
+
+TEST_F(MapClosingTest, WhatWasLookedAtIsNotLookedAtAgainUntilItMoves) {
+  const std::vector<Pose2> before = bent(truth_);
+  const MapClosing without = close(before);
+  LookMemory memory;
+  EXPECT_EQ(close(before, {}, &memory).poses, without.poses);
+  reads_ = 0;
+  EXPECT_EQ(close(before, {}, &memory).poses, without.poses);
+  EXPECT_EQ(reads_, 0);
+  std::vector<Pose2> moved = before;
+  moved.back() = moved.back() * Pose2{0.01, 0.0, 0.0};
+  const MapClosing then = close(moved, {}, &memory);
+  EXPECT_GT(reads_, 0);
+  EXPECT_EQ(then.poses, close(moved).poses);
 }
 
 TEST_F(MapClosingTest, AMapThatIsClosedStaysAsItIs) {

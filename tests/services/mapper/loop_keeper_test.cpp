@@ -60,6 +60,10 @@ TEST_F(LoopKeeperTest, HandsOutTheWholeMapWithKeyframesThatCameMeanwhile) {
                                  drive_.truth.begin() + static_cast<std::ptrdiff_t>(next_));
   EXPECT_LT(mapping::rmse_m(poses, truth), 0.05);
   EXPECT_LT(distance_m(closed->T_new_old * drive_.bent[next_ - 1], poses.back()), 1e-9);
+  EXPECT_GE(closed->drawn.loops.size(), 4u);
+  for (const auto& [from, to] : closed->drawn.loops) EXPECT_LT((from - to).norm(), 25.0);
+  ASSERT_GE(closed->drawn.before.size(), 40u);
+  EXPECT_EQ(closed->drawn.before[40].x(), drive_.bent[40].x_m);
   mapping::MapBuilder fresh;
   for (std::size_t i = 0; i < next_; ++i) {
     mapping::Keyframe keyframe = drive_.keyframe(i);

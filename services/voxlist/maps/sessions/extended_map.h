@@ -26,6 +26,7 @@ class ExtendedMap {
 
   /// T_map_base of each keyframe: those that were there, then those that were added.
   const std::vector<StampedPose3>& poses() const { return poses_; }
+  const mapping::MapKeyframes& keyframes() const { return keyframes_; }
   std::size_t were_there() const { return were_there_; }
   std::size_t added() const { return poses_.size() - were_there_; }
 
