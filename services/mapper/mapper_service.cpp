@@ -54,6 +54,9 @@ constexpr std::int64_t kRivalGone_us = 3 * kSecond_us;
 // reach.
 constexpr double kDrive_m = bus::kMapReach_m - 1000.0;
 
+// Clouds of before the robot was found that are placed after each cloud.
+constexpr int kApartAtOnce = 4;
+
 // An id that no other map has: the time when it was begun.
 std::int64_t new_map_id() {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
@@ -93,6 +96,7 @@ MapperService::MapperService(bus::Bus& bus, bus::Health& health, const MapperSer
                  builder_.poses(),
                  [this](mapping::Keyframe keyframe) { restore(std::move(keyframe)); }),
       loops_(health, config.close_loops, with_free_space(config.builder)),
+      apart_(health, builder_.poses().empty() ? "" : keyframes_.folder(), config.tilt),
       moves_(keyframes_.moves()),
       map_id_(keyframes_.map_id()),
       is_extending_(config.extend),
@@ -137,6 +141,7 @@ void MapperService::take_localisation(const localisation_t& message) {
   const std::int64_t before = version();
   decide(message);
   send_change(before);
+  join_apart();
 }
 
 // A cloud is decided on once: who speaks of it again, and otherwise, is not heard.
@@ -144,14 +149,41 @@ void MapperService::decide(const localisation_t& message) {
   if (message.map_version != version()) return health_.count("LOCALISATION/other_version");
   auto cloud = take_waiting_cloud(message.utime);
   const auto pose = pose_of(message);
-  if (!pose) return;
+  if (!pose) {
+    if (cloud && is_extending_) apart_.add(std::move(*cloud), odometry_.at(message.utime));
+    return;
+  }
   if (version() > 0) confirm();
   if (!takes(pose->tilt)) return;
   path_.add({message.utime, pose->planar}, pose->tilt);
+  note_found(message, pose->planar);
   if (!is_extending_ || !keyframes_.has_room()) return;
   if (!cloud) return health_.count("LOCALISATION/cloud_missing");
-  if (builder_.wants(*cloud, pose->planar, pose->tilt))
-    add(std::move(*cloud), to_pose3(pose->planar, pose->tilt));
+  if (builder_.wants(*cloud, pose->planar, pose->tilt)) {
+    add(std::move(*cloud), to_pose3(pose->planar, pose->tilt), odometry_.at(message.utime));
+    path_.mark_keyframe();
+  }
+}
+
+// Also while nothing is added: what comes from now on has its place.
+void MapperService::note_found(const localisation_t& message, const Pose2& pose) {
+  if (!apart_.is_waiting()) return;
+  UncertainPose found{pose};
+  for (int i = 0; i < 9; ++i) found.covariance(i / 3, i % 3) = message.modes.front().covariance[i];
+  apart_.found(message.utime, odometry_.at(message.utime), found, builder_.map());
+}
+
+// Each is a version of its own: the next one is matched with it.
+void MapperService::join_apart() {
+  for (int i = 0; i < kApartAtOnce && is_extending_ && keyframes_.has_room(); ++i) {
+    auto placed = apart_.place_next();
+    if (!placed || !builder_.wants(placed->cloud, placed->T_map_base, placed->tilt)) continue;
+    const std::int64_t before = version();
+    const Pose3 pose = to_pose3(placed->T_map_base, placed->tilt);
+    path_.restore({placed->cloud.utime_us, pose});
+    add(std::move(placed->cloud), pose, placed->T_odom_base);
+    send_change(before);
+  }
 }
 
 // A map of level clouds is spoilt by one that is not.
@@ -178,11 +210,11 @@ std::optional<Cloud> MapperService::take_waiting_cloud(std::int64_t utime_us) {
   return cloud;
 }
 
-void MapperService::add(Cloud cloud, const Pose3& pose) {
+void MapperService::add(Cloud cloud, const Pose3& pose, const std::optional<Pose2>& T_odom_base) {
   keyframes_.add(builder_.add({pose, std::move(cloud)}));
-  path_.mark_keyframe();
+  apart_.map_changed(builder_.changed_blocks());
   const StampedPose3& newest = builder_.poses().back();
-  loops_.add(newest.utime_us, to_pose2(newest.pose), odometry_.at(newest.utime_us));
+  loops_.add(newest.utime_us, to_pose2(newest.pose), T_odom_base);
   health_.count("keyframes");
   send_keyframes(keyframes_.size() - 1, 1);
 }
@@ -202,6 +234,7 @@ void MapperService::recall_graph() {
 // On the disk first: a mapper that is started again goes on with what listeners have.
 void MapperService::move(ClosedMap closed) {
   if (!keyframes_.write_graph({map_id_, moves_ + 1, closed.keyframes, closed.edges})) return;
+  apart_.end();
   const std::int64_t before = version();
   const std::vector<StampedPose3> poses = builder_.poses();
   builder_.move_to(std::move(closed.builder), closed.T_new_old);
@@ -209,6 +242,7 @@ void MapperService::move(ClosedMap closed) {
   loops_.accept(std::move(closed.keyframes));
   ++moves_;
   T_new_old_ = closed.T_new_old;
+  closed_loops_ = std::move(closed.drawn);
   health_.count("maps_moved");
   send_change(before);
 }
@@ -257,6 +291,7 @@ void MapperService::give_up(std::int64_t map_id) {
   builder_.clear();
   loops_.clear();
   moves_ = 0;
+  closed_loops_ = {};
   path_ = {};
   sender_.clear();
   resends_queued_ = 0;
@@ -386,7 +421,7 @@ void MapperService::save() {
   if (folder.empty()) return;
   views_failed_ = true;
   try {
-    mapping::write_map_views(folder, builder_.map(), path_.poses());
+    mapping::write_map_views(folder, builder_.map(), path_.poses(), closed_loops_);
     views_failed_ = false;
     health_.count("saved");
     health_.clear("views");

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "services/mapper/apart/apart_session.h"
 #include "services/mapper/keyframe_keeper.h"
 #include "services/mapper/loops/loop_keeper.h"
 #include "services/mapper/map_channel.h"
@@ -98,7 +99,9 @@ class MapperService {
   void decide(const localisation_t& message);
   void confirm();
   bool takes(const Tilt& tilt);
-  void add(Cloud cloud, const Pose3& pose);
+  void note_found(const localisation_t& message, const Pose2& pose);
+  void join_apart();
+  void add(Cloud cloud, const Pose3& pose, const std::optional<Pose2>& T_odom_base);
   void recall_graph();
   void move(ClosedMap closed);
   std::optional<Cloud> take_waiting_cloud(std::int64_t utime_us);
@@ -126,8 +129,10 @@ class MapperService {
   KeyframeKeeper keyframes_;
   OdometryBuffer odometry_;
   LoopKeeper loops_;
+  ApartSession apart_;
   std::int64_t moves_ = 0;
-  Pose2 T_new_old_;  // how the newest keyframe was moved the last time
+  drawing::ClosedLoops closed_loops_;  // those of the last move
+  Pose2 T_new_old_;                    // how the newest keyframe was moved the last time
   std::int64_t map_id_;
   bool is_extending_;          // clouds go into the map
   bool is_confirmed_ = false;  // a cloud was placed by what the map's first one saw

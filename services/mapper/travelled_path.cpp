@@ -1,5 +1,7 @@
 #include "services/mapper/travelled_path.h"
 
+#include <algorithm>
+
 #include "voxlist/mapping/graph/carried_scans.h"
 
 namespace voxlist::services {
@@ -27,6 +29,7 @@ void TravelledPath::move(std::span<const StampedPose3> before,
 std::vector<StampedPose3> TravelledPath::poses() const {
   std::vector<StampedPose3> poses = old_keyframes_;
   for (const Entry& entry : newest_) poses.push_back(entry.in_3d());
+  std::ranges::stable_sort(poses, {}, &StampedPose3::utime_us);
   return poses;
 }
 

@@ -17,7 +17,7 @@ class TravelledPath {
   /// Newest poses that are all kept: an hour at 10 Hz, 2 MB.
   static constexpr std::size_t kNewest = 36'000;
 
-  /// A keyframe of before.
+  /// A keyframe of before, or one that got its place later than those after it.
   void restore(const StampedPose3& keyframe) { old_keyframes_.push_back(keyframe); }
 
   void add(const StampedPose2& pose, const Tilt& tilt = {});
