@@ -1,7 +1,7 @@
 // Plays the localiser for the mapper: keyframe after keyframe, each when the one before is
 // answered. Writes the map's version, which counts its keyframes, with each answer. Keyframe N is
-// of second N, and of a place of its own within a kilometre or so. Usage: map_feeder, until it is
-// ended.
+// of second N, and of a place of its own within a kilometre or so. Usage: map_feeder [on], until it
+// is ended; on: each cloud is a second after the last, also where that was none.
 #include <chrono>
 #include <iostream>
 #include <optional>
@@ -21,7 +21,7 @@ using Clock = std::chrono::steady_clock;
 constexpr std::int64_t kBegin_us = 1'700'000'000'000'000;
 
 struct Feeder {
-  Feeder() {
+  explicit Feeder(bool on) : goes_on(on) {
     bus.subscribe(bus::kMapUpdate, [this](const map_update_t& m) { take(m); });
   }
 
@@ -41,7 +41,7 @@ struct Feeder {
 
   void send_keyframe() {
     Cloud cloud;
-    asked_us = cloud.utime_us = kBegin_us + version * 1'000'000;
+    asked_us = cloud.utime_us = kBegin_us + (goes_on ? ++sent : version) * 1'000'000;
     for (int i = 0; i < 300; ++i)
       cloud.points.emplace_back(2.F, 0.02F * static_cast<float>(i), 0.5F);
     bus.publish(bus::kCloud, bus::to_message(cloud, "base", 0));
@@ -69,7 +69,8 @@ struct Feeder {
 
   bus::Bus bus{bus::BusOptions{}};
   std::optional<std::int64_t> map_id;
-  std::int64_t version = 0;
+  std::int64_t version = 0, sent = 0;
+  const bool goes_on;
   std::int64_t asked_us = 0;
   bool waiting = false;
   Clock::time_point asked_at;
@@ -77,8 +78,8 @@ struct Feeder {
 
 }  // namespace
 
-int main() {
-  Feeder feeder;
+int main(int argc, char**) {
+  Feeder feeder(argc > 1);
   for (int i = 0; i < 1'000'000; ++i) feeder.step();
   return 0;
 }
