@@ -49,6 +49,10 @@ class Scans {
   Cloud cloud_;
 };
 
+ChangedBlocks nothing_of(const OccupancyMap& map) {
+  return {{}, {}, map.revision(), map.revision()};
+}
+
 bool is_moved(const Pose3& before, const std::optional<Pose3>& now) {
   return !now || now->matrix() != before.matrix();
 }
@@ -80,8 +84,26 @@ double MapBuilder::news_of(const CarvedMap::Scan& scan) {
   return std::max(news.share(), doubted / static_cast<double>(std::max<std::size_t>(news.hit, 1)));
 }
 
+void MapBuilder::edit(MapEdits edits) {
+  edits_ = std::move(edits);
+  changed_blocks_ = nothing_of(map_->map());
+  changed_free_space_ = nothing_of(map_->free_space().map());
+  place_edits();
+}
+
+// Where they are now, on the map as it is now.
+void MapBuilder::place_edits() {
+  const std::vector<PlacedBox> boxes = edits_.placed(poses_);
+  changed_blocks_ = edited_map_.take(map_->map(), boxes, changed_blocks_);
+  if (!config_.count_free) return;
+  changed_free_space_ = edited_free_.take(map_->free_space().map(), boxes, changed_free_space_);
+}
+
 void MapBuilder::clear() {
   map_->clear();
+  edits_ = {};
+  edited_map_ = EditedMap(EditUse::kMatching);
+  edited_free_ = EditedMap(EditUse::kPlanning);
   poses_.clear();
   changed_blocks_ = changed_free_space_ = {};
   looked_at_ = {};
@@ -97,6 +119,7 @@ void MapBuilder::move(const std::vector<std::optional<Pose3>>& poses, const Read
   for (std::size_t i = 0; i < poses.size(); ++i)
     if (poses[i]) there.push_back({poses_[i].utime_us, *poses[i]});
   poses_ = std::move(there);
+  place_edits();
   if (!poses_.empty()) looked_at_ = to_pose2(poses_.back().pose);
 }
 
@@ -119,17 +142,22 @@ void MapBuilder::recount(const std::vector<std::optional<Pose3>>& poses, const R
 }
 
 void MapBuilder::move_to(MapBuilder moved, const Pose2& T_new_old) {
+  moved.edit(std::move(edits_));
   changed_blocks_ = difference(map(), moved.map());
   changed_free_space_ = difference(free_space(), moved.free_space());
   map_ = std::move(moved.map_);
+  edits_ = std::move(moved.edits_);
+  edited_map_ = std::move(moved.edited_map_);
+  edited_free_ = std::move(moved.edited_free_);
   poses_ = std::move(moved.poses_);
   looked_at_ = T_new_old * looked_at_;
 }
 
 Keyframe MapBuilder::add(Keyframe keyframe) {
   // As wants() has seen it: then its rays are not followed again.
-  changed_blocks_ = map_->add({keyframe.T_map_base, keyframe.cloud});
-  changed_free_space_ = map_->free_space().follow();
+  changed_blocks_ =
+      edited_map_.follow(map_->map(), map_->add({keyframe.T_map_base, keyframe.cloud}));
+  changed_free_space_ = edited_free_.follow(map_->free_space().map(), map_->free_space().follow());
   remove_near(keyframe.cloud, config_.min_range_m);
   looked_at_ = to_pose2(keyframe.T_map_base);
   poses_.push_back({keyframe.cloud.utime_us, keyframe.T_map_base});

@@ -8,6 +8,8 @@
 #include "voxlist/geometry/cloud.h"
 #include "voxlist/geometry/pose.h"
 #include "voxlist/geometry/tilt.h"
+#include "voxlist/mapping/edits/map_edits.h"
+#include "voxlist/voxels/edits/edited_map.h"
 #include "voxlist/voxels/voids/carved_map.h"
 
 namespace voxlist::mapping {
@@ -83,33 +85,40 @@ class MapBuilder {
   /// what changed is what is otherwise. `T_new_old`: how the newest one was moved.
   void move_to(MapBuilder moved, const Pose2& T_new_old);
 
-  /// Begins an empty map.
+  /// Takes edits by hand in the place of those before. They come last in the map and in free
+  /// space, whatever is added or moved afterwards.
+  void edit(MapEdits edits);
+
+  /// Begins an empty map, without edits.
   void clear();
 
-  const OccupancyMap& map() const { return map_->map(); }
+  const OccupancyMap& map() const { return edited_map_.of(map_->map()); }
 
   /// When and where each keyframe was taken, in their order.
   const std::vector<StampedPose3>& poses() const { return poses_; }
 
-  /// What the last add(), move() or move_to() changed. Where move() made all anew, the revisions
-  /// tell that more has changed than the blocks do.
+  /// What the last add(), move(), move_to() or edit() changed. Where move() made all anew, the
+  /// revisions tell that more has changed than the blocks do.
   const ChangedBlocks& changed_blocks() const { return changed_blocks_; }
 
   /// Free and occupied cells as counted; empty unless count_free.
-  const OccupancyMap& free_space() const { return map_->free_space().map(); }
+  const OccupancyMap& free_space() const { return edited_free_.of(map_->free_space().map()); }
 
-  /// What the last add() or move() changed there.
+  /// What the same changed there.
   const ChangedBlocks& changed_free_space() const { return changed_free_space_; }
 
  private:
   bool has_moved(const Pose2& pose) const;
   double news_of(const CarvedMap::Scan& scan);
+  void place_edits();
   void make_anew(const std::vector<std::optional<Pose3>>& poses, const ReadCloud& read);
   void recount(const std::vector<std::optional<Pose3>>& poses, const ReadCloud& read);
 
   const MapBuilderConfig config_;
   std::unique_ptr<CarvedMap> map_;
   std::vector<StampedPose3> poses_;
+  MapEdits edits_;
+  EditedMap edited_map_{EditUse::kMatching}, edited_free_{EditUse::kPlanning};
   ChangedBlocks changed_blocks_, changed_free_space_;
   Pose2 looked_at_;  // where the last cloud was added or looked at
 };

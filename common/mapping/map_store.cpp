@@ -8,6 +8,7 @@
 
 #include "voxlist/io/files/file.h"
 #include "voxlist/io/files/keep_aside.h"
+#include "voxlist/mapping/edits/stored_edits.h"
 #include "voxlist/mapping/graph/stored_graph.h"
 #include "voxlist/mapping/keyframe_reader.h"
 
@@ -63,6 +64,19 @@ void MapStore::read(std::int64_t new_map_id, const Take& take) {
   if (reader.is_damaged()) mend(places);
   writer_ = std::make_unique<KeyframeWriter>(file(), map_id_, reader.next_number());
   keyframes_ = std::make_unique<StoredKeyframes>(file(), std::move(places));
+  read_edits();
+}
+
+void MapStore::read_edits() {
+  FoundEdits found = find_edits(folder_, map_id_);
+  edits_ = std::move(found.edits);
+  if (!notice_.empty() && !found.fault.empty()) notice_ += "; ";
+  notice_ += found.fault;
+}
+
+void MapStore::write_edits(MapEdits edits) {
+  mapping::write_edits(folder_, edits);
+  edits_ = std::move(edits);
 }
 
 // One that is not this map's may be somebody's.
@@ -78,6 +92,7 @@ void MapStore::begin_anew(std::int64_t new_map_id) {
   if (keyframes_->size() > 0) io::keep_aside(file(), ".given-up");
   empty.commit();
   remove_graph(folder_);
+  give_up_edits(folder_);
   read(new_map_id, [](const Keyframe&) {});
 }
 

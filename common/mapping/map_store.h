@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "voxlist/mapping/edits/map_edits.h"
 #include "voxlist/mapping/keyframe_writer.h"
 #include "voxlist/mapping/map_builder.h"
 #include "voxlist/system/file_lock.h"
@@ -70,7 +71,7 @@ class MapStore {
   /// What was damaged and what became of it, one line for the log; empty when all was whole.
   const std::string& notice() const { return notice_; }
 
-  /// Begins an empty map of that id. The file of the one before is kept aside
+  /// Begins an empty map of that id, without edits. The files of the one before are kept aside
   /// (keyframes.voxlist.given-up, .given-up-1, ...), unless it is empty. Throws FileError; then the
   /// map is as it was.
   void begin_anew(std::int64_t new_map_id);
@@ -85,6 +86,12 @@ class MapStore {
   /// How often they were moved so far.
   std::int64_t moves() const { return moves_; }
 
+  /// Boxes that were edited by hand.
+  const MapEdits& edits() const { return edits_; }
+
+  /// These edits replace those that are there. Throws FileError; then those are still there.
+  void write_edits(MapEdits edits);
+
   /// What is on the disk.
   StoredKeyframes& keyframes() { return *keyframes_; }
 
@@ -95,12 +102,14 @@ class MapStore {
   std::filesystem::path file() const { return folder_ / kKeyframeFile; }
   void read(std::int64_t new_map_id, const Take& take);
   void mend(std::vector<KeyframePlace>& places);
+  void read_edits();
 
   std::filesystem::path folder_;
   FileLock lock_;
   std::int64_t map_id_ = 0;
   std::string notice_;
   std::int64_t moves_ = 0;
+  MapEdits edits_;
   std::unique_ptr<KeyframeWriter> writer_;
   std::unique_ptr<StoredKeyframes> keyframes_;
 };

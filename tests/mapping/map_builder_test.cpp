@@ -157,5 +157,75 @@ TEST(MapBuilder, NamesTheBlocksThatAKeyframeChanged) {
   EXPECT_EQ(builder.changed_blocks().occupied, (std::vector<Voxel>{{31, 0, 0}}));
 }
 
+// A box of each kind, in what the drive sees.
+MapEdits edits_of(const std::vector<Keyframe>& keyframes) {
+  std::vector<StampedPose3> poses;
+  for (const Keyframe& k : keyframes) poses.push_back({k.cloud.utime_us, k.T_map_base});
+  MapEdits edits;
+  for (const auto kind : {EditKind::kErase, EditKind::kKeepFree, EditKind::kKeepBlocked}) {
+    const Eigen::Vector3d low(5.0 * double(edits.edits.size()), -2.0, -1.0);
+    edits.add(kind, {low, low + Eigen::Vector3d(4.0, 4.0, 1.5)}, poses);
+  }
+  return edits;
+}
+
+MapBuilder made_and_edited(const std::vector<Keyframe>& keyframes, const MapEdits& edits) {
+  MapBuilder builder = made_of(keyframes);
+  builder.edit(edits);
+  return builder;
+}
+
+TEST(MapBuilder, HasEditsLastWhateverIsAddedAfterwards) {
+  const std::vector<Keyframe> keyframes = drive();
+  const MapEdits edits = edits_of(keyframes);
+  MapBuilder builder = made_and_edited({keyframes.begin(), keyframes.begin() + 6}, edits);
+  for (std::size_t i = 6; i < keyframes.size(); ++i) {
+    const MapRevision before = builder.map().revision();
+    builder.add(keyframes[i]);
+    EXPECT_EQ(builder.changed_blocks().from, before);
+    EXPECT_EQ(builder.changed_blocks().to, builder.map().revision());
+  }
+  expect_same(builder, made_and_edited(keyframes, edits));
+  EXPECT_LT(builder.map().occupied.size(), made_of(keyframes).map().occupied.size());
+}
+
+TEST(MapBuilder, MovesEditsWithTheirKeyframes) {
+  for (const std::size_t first : {9u, 1u}) {
+    std::vector<Keyframe> keyframes = drive();
+    const MapEdits edits = edits_of(keyframes);
+    MapBuilder builder = made_and_edited(keyframes, edits);
+    const OccupancyMap before = builder.map();
+    std::vector<std::optional<Pose3>> poses;
+    for (std::size_t i = 0; i < keyframes.size(); ++i) {
+      if (i >= first) keyframes[i].T_map_base = to_pose3({0.5, 1.0, 0.4}) * keyframes[i].T_map_base;
+      poses.emplace_back(keyframes[i].T_map_base);
+    }
+    builder.move(poses, [&](std::size_t i) { return keyframes[i].cloud; });
+    expect_same(builder, made_and_edited(keyframes, edits));
+    EXPECT_EQ(builder.changed_blocks().occupied, difference(before, builder.map()).occupied);
+  }
+}
+
+TEST(MapBuilder, KeepsItsEditsWhereItTakesAMovedMap) {
+  std::vector<Keyframe> keyframes = drive();
+  const MapEdits edits = edits_of(keyframes);
+  MapBuilder builder = made_and_edited(keyframes, edits);
+  const OccupancyMap before = builder.map();
+  for (Keyframe& k : keyframes) k.T_map_base = to_pose3({0.5, 1.0, 0.4}) * k.T_map_base;
+  builder.move_to(made_of(keyframes), {0.5, 1.0, 0.4});
+  expect_same(builder, made_and_edited(keyframes, edits));
+  EXPECT_EQ(builder.changed_blocks().occupied, difference(before, builder.map()).occupied);
+}
+
+TEST(MapBuilder, IsAsItWasOnceItsEditsAreTakenBack) {
+  const std::vector<Keyframe> keyframes = drive();
+  MapBuilder builder = made_and_edited(keyframes, edits_of(keyframes));
+  const OccupancyMap before = builder.map();
+  builder.edit({});
+  expect_same(builder, made_of(keyframes));
+  EXPECT_GT(builder.changed_blocks().occupied.size(), 10U);
+  EXPECT_EQ(builder.changed_blocks().occupied, difference(before, builder.map()).occupied);
+}
+
 }  // namespace
 }  // namespace voxlist::mapping

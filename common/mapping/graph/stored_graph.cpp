@@ -1,29 +1,24 @@
 #include "voxlist/mapping/graph/stored_graph.h"
 
 #include <fmt/core.h>
-#include <zlib.h>
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <charconv>
 #include <iterator>
+#include <utility>
 
 #include "voxlist/geometry/tilt.h"
 #include "voxlist/io/files/atomic_file.h"
 #include "voxlist/io/files/file.h"
+#include "voxlist/mapping/text/checked_text.h"
+#include "voxlist/mapping/text/words.h"
 
 namespace voxlist::mapping {
 namespace {
 
 constexpr std::string_view kTitle = "# voxlist graph 1";
-constexpr std::string_view kEnd = "# checksum ";
 
 using Out = std::back_insert_iterator<std::string>;
-
-std::uint32_t checksum_of(std::string_view bytes) {
-  return static_cast<std::uint32_t>(
-      crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
-}
 
 // Without a precision, numbers are written so that reading gives the same bits.
 void write(const Pose2& pose, Out out) {
@@ -49,53 +44,13 @@ void write(const PoseEdge& edge, Out out) {
   fmt::format_to(out, "\n");
 }
 
-// Takes words off a text, one after the other; after the first that is none, nothing is told any
-// more.
-class Words {
- public:
-  explicit Words(std::string_view text) : text_(text) {}
-
-  bool is(std::string_view word) {
-    skip_blanks();
-    if (!text_.starts_with(word)) return false;
-    text_.remove_prefix(word.size());
-    return true;
-  }
-
-  template <class T>
-  T number() {
-    skip_blanks();
-    T value{};
-    const auto [end, error] = std::from_chars(text_.data(), text_.data() + text_.size(), value);
-    if (error != std::errc{}) good_ = false;
-    text_.remove_prefix(static_cast<std::size_t>(end - text_.data()));
-    return value;
-  }
-
-  Pose2 pose() {
-    Pose2 pose;
-    for (double* part : {&pose.x_m, &pose.y_m, &pose.yaw_rad}) *part = number<double>();
-    return pose;
-  }
-
-  Eigen::Matrix3d symmetric() {
-    Eigen::Matrix3d matrix;
-    for (int row = 0; row < 3; ++row)
-      for (int column = row; column < 3; ++column)
-        matrix(row, column) = matrix(column, row) = number<double>();
-    return matrix;
-  }
-
-  bool good() const { return good_; }
-
- private:
-  void skip_blanks() {
-    text_.remove_prefix(std::min(text_.find_first_not_of(" \n"), text_.size()));
-  }
-
-  std::string_view text_;
-  bool good_ = true;
-};
+Eigen::Matrix3d symmetric(Words& words) {
+  Eigen::Matrix3d matrix;
+  for (int row = 0; row < 3; ++row)
+    for (int column = row; column < 3; ++column)
+      matrix(row, column) = matrix(column, row) = words.number<double>();
+  return matrix;
+}
 
 StoredGraph::Keyframe read_keyframe(Words& words) {
   StoredGraph::Keyframe keyframe;
@@ -113,7 +68,7 @@ PoseEdge read_edge(Words& words) {
   edge.from = words.number<std::size_t>();
   edge.to = words.number<std::size_t>();
   edge.T_from_to.pose = words.pose();
-  edge.T_from_to.covariance = words.symmetric().inverse();
+  edge.T_from_to.covariance = symmetric(words).inverse();
   return edge;
 }
 
@@ -122,16 +77,6 @@ bool holds_together(const StoredGraph& graph) {
   return std::all_of(graph.edges.begin(), graph.edges.end(), [&](const PoseEdge& edge) {
     return edge.from < size && edge.to < size && edge.from != edge.to;
   });
-}
-
-// The text before its last line, if that has the checksum of it.
-std::optional<std::string_view> whole_text(std::string_view text) {
-  const std::size_t end = text.rfind(kEnd);
-  if (end == std::string_view::npos) return std::nullopt;
-  Words last(text.substr(end + kEnd.size()));
-  const auto checksum = last.number<std::uint32_t>();
-  const std::string_view body = text.substr(0, end);
-  return last.good() && checksum == checksum_of(body) ? std::optional(body) : std::nullopt;
 }
 
 }  // namespace
@@ -143,8 +88,7 @@ std::string to_g2o(const StoredGraph& graph) {
   for (std::size_t i = 0; i < graph.keyframes.size(); ++i) write(graph.keyframes[i], i, out);
   if (!graph.keyframes.empty()) text += "FIX 0\n";
   for (const PoseEdge& edge : graph.edges) write(edge, out);
-  fmt::format_to(out, "{}{}\n", kEnd, checksum_of(std::string_view(text)));
-  return text;
+  return with_checksum(std::move(text));
 }
 
 std::optional<StoredGraph> parse_g2o(std::string_view text) {
