@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -13,6 +14,7 @@
 #include "voxlist/planning/scan_pipeline.h"
 #include "voxlist/planning/touched.h"
 #include "voxlist/voxels/counters/cut.h"
+#include "voxlist/voxels/edits/edited_counters.h"
 
 namespace voxlist::planning {
 namespace {
@@ -70,20 +72,41 @@ struct OctomapBuilder::Tree {
     follow();
     const double resolution_m =
         wanted.resolution_m == 0.0 ? rules.resolution_m : wanted.resolution_m;
-    if (resolution_m == rules.resolution_m && !wanted.box) return use(counters, tiles);
+    CounterMap& all = whole();
+    if (resolution_m == rules.resolution_m && !wanted.box) return use(all, tiles);
     if (!part || part->cut != wanted) {
-      part.emplace(wanted, CutMap(counters, resolution_m, wanted.box));
+      part.emplace(wanted, CutMap(all, resolution_m, wanted.box));
       part->follow();
     }
     return use(part->counters.map(), part->tiles);
   }
 
+  // The counters with edits.
+  CounterMap& whole() { return edited ? edited->map() : counters; }
+
+  void edit(const std::vector<PlacedBox>& boxes) {
+    if (boxes.empty() && !edited) return;
+    edited.reset();
+    if (!boxes.empty()) edited.emplace(counters, boxes);
+    counters.take_changed();
+    whole().take_changed();
+    tiles = {};
+    part.reset();
+    std::vector<std::uint32_t> all(whole().block_count());
+    std::iota(all.begin(), all.end(), 0u);
+    tiles.update(whole(), all);
+  }
+
   // Brings trees up to date with the counters.
   void follow() {
-    const std::vector<std::uint32_t> changed = counters.take_changed();
-    tiles.update(counters, changed);
+    std::vector<std::uint32_t> changed = counters.take_changed();
+    if (edited) {
+      edited->update(counters, changed);
+      changed = edited->map().take_changed();
+    }
+    tiles.update(whole(), changed);
     if (!part) return;
-    part->counters.update(counters, changed);
+    part->counters.update(whole(), changed);
     part->follow();
   }
 
@@ -101,7 +124,8 @@ struct OctomapBuilder::Tree {
   const RayRules rules;
   RayScratch scratch;
   CounterMap counters;
-  OctreeTiles tiles;
+  std::optional<EditedCounters> edited;
+  OctreeTiles tiles;  // of the counters with edits
   std::optional<Part> part;
   double reach_m = std::numeric_limits<double>::infinity();
 };
@@ -144,6 +168,8 @@ bool OctomapBuilder::recount(const std::vector<CloudMove>& moves,
   });
 }
 
+void OctomapBuilder::edit(const std::vector<PlacedBox>& boxes) { tree_->edit(boxes); }
+
 double OctomapBuilder::reach_m() const { return tree_->reach_m; }
 
 std::vector<std::uint8_t> OctomapBuilder::binary(const OctomapCut& cut) const {
@@ -166,7 +192,8 @@ void OctomapBuilder::write_ot(const std::filesystem::path& path, const OctomapCu
 }
 
 OctomapSize OctomapBuilder::size() const {
-  const CounterMap& counters = tree_->counters;
+  tree_->follow();
+  const CounterMap& counters = tree_->whole();
   OctomapSize size;
   for (std::size_t i = 0; i < counters.block_count(); ++i) {
     const std::size_t occupied = cells_in(counters.occupied(i));
@@ -180,7 +207,8 @@ OctomapSize OctomapBuilder::size() const {
 
 Occupancy OctomapBuilder::at(const Eigen::Vector3d& point_map) const {
   if (!in_lattice(point_map, tree_->rules.resolution_m)) return Occupancy::kUnknown;
-  switch (tree_->counters.at(voxel_at(point_map, tree_->rules.resolution_m))) {
+  tree_->follow();
+  switch (tree_->whole().at(voxel_at(point_map, tree_->rules.resolution_m))) {
     case CellState::kFree:
       return Occupancy::kFree;
     case CellState::kOccupied:

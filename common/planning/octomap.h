@@ -11,6 +11,7 @@
 
 #include "voxlist/geometry/cloud.h"
 #include "voxlist/geometry/pose.h"
+#include "voxlist/voxels/edits/placed_box.h"
 #include "voxlist/voxels/voxel_map.h"
 
 namespace voxlist::planning {
@@ -119,6 +120,10 @@ class OctomapBuilder {
   bool recount(const std::vector<CloudMove>& moves,
                const std::function<std::optional<PosedCloud>()>& all, int threads,
                const std::function<bool()>& stopped = {});
+
+  /// Takes boxes that were edited by hand in the place of those before: they come last, whatever is
+  /// inserted. What is erased is unknown where it was occupied.
+  void edit(const std::vector<PlacedBox>& boxes);
 
   /// The shortest distance that the rays of a cloud were followed to for their number's sake;
   /// infinite while all were followed to their ends.

@@ -67,6 +67,42 @@ class OctomapFiles : public testing::Test {
   std::filesystem::path folder_;
 };
 
+// Boxes of each kind about where the simulated robot drove.
+std::vector<PlacedBox> edits() {
+  const Eigen::AlignedBox3d middle(Vector3d(-1.0, -1.0, -0.5), Vector3d(1.0, 1.0, 2.0));
+  PlacedBox turned{EditKind::kKeepFree, middle, {2.0, 1.0, 0.5}};
+  return {{EditKind::kErase, middle, {-2.0, 0.0, 0.0}},
+          turned,
+          {EditKind::kKeepBlocked, middle, {30.0, 0.0, 0.0}}};
+}
+
+TEST(Octomap, HasEditsLastWhateverIsInsertedAfterwards) {
+  const Cloud cloud = one_ray({0.f, 0.f, 0.5f}, {3.f, 0.f, 0.5f});
+  OctomapBuilder early = simulated_map(), late = simulated_map();
+  const std::string plain = text(early.binary());
+  early.edit(edits());
+  EXPECT_NE(text(early.binary()), plain);
+  for (OctomapBuilder* builder : {&early, &late}) builder->insert(Pose3::Identity(), cloud);
+  late.edit(edits());
+  EXPECT_EQ(text(early.binary()), text(late.binary()));
+  const OctomapCut coarse{.resolution_m = 0.4, .box = {}};
+  EXPECT_EQ(text(early.binary(coarse)), text(late.binary(coarse)));
+  EXPECT_EQ(early.size().free, late.size().free);
+  EXPECT_EQ(early.at({30.0, 0.0, 0.5}), Occupancy::kOccupied);
+  EXPECT_EQ(early.at({2.0, 1.0, 0.5}), Occupancy::kFree);
+  EXPECT_NE(early.at({-2.0, 0.0, 0.0}), Occupancy::kOccupied);
+}
+
+TEST(Octomap, IsAsItWasOnceItsEditsAreTakenBack) {
+  OctomapBuilder builder = simulated_map();
+  const std::string plain = text(builder.binary());
+  builder.edit(edits());
+  builder.binary();
+  builder.edit({});
+  EXPECT_EQ(text(builder.binary()), plain);
+  EXPECT_EQ(builder.at({30.0, 0.0, 0.5}), Occupancy::kUnknown);
+}
+
 TEST(Octomap, IsFreeAlongARayOccupiedAtItsHitAndUnknownBeyond) {
   OctomapBuilder builder(config());
   builder.insert(Pose3::Identity(), one_ray({0.05F, 0.05F, 0.65F}, {2.05F, 0.05F, 0.65F}));
