@@ -4,6 +4,8 @@ namespace voxlist {
 class health_t;
 class keyframe_t;
 class localisation_t;
+class map_edit_t;
+class map_edits_t;
 class map_octree_t;
 class map_request_t;
 class map_update_t;
@@ -95,6 +97,14 @@ inline constexpr Channel<map_request_t> kMapRequest{"MAP_REQUEST"};
 /// Where a person thinks that the robot is: where a lost one looks, too. Frame: map. Rate: on
 /// command. From voxlist hint, or whoever knows, to localiser.
 inline constexpr Channel<pose_hint_t> kPoseHint{"POSE_HINT"};
+
+/// Asks mapper to edit a box of the map by hand. Frame: map. Rate: when a person does.
+/// From the desk tool and viewers to mapper, which answers on MAP_EDITS.
+inline constexpr Channel<map_edit_t> kMapEdit{"MAP_EDIT"};
+
+/// All boxes of the map that were edited by hand. Frame: map. Rate: on change, and on request.
+/// From mapper to octomap_export, viewers, and whoever asked for an edit.
+inline constexpr Channel<map_edits_t> kMapEdits{"MAP_EDITS"};
 
 /// The map as an OctoMap. Frame: map. Rate: on change, at most 1 Hz.
 /// From octomap_export to planners.

@@ -2,6 +2,8 @@
 #include <voxlist/health_t.hpp>
 #include <voxlist/keyframe_t.hpp>
 #include <voxlist/localisation_t.hpp>
+#include <voxlist/map_edit_t.hpp>
+#include <voxlist/map_edits_t.hpp>
 #include <voxlist/map_octree_t.hpp>
 #include <voxlist/map_request_t.hpp>
 #include <voxlist/map_update_t.hpp>
@@ -85,6 +87,12 @@ Fault check_lengths(const keyframe_t& message) {
 
 Fault check_lengths(const localisation_t& message) {
   return Lengths().array(message.n_modes, message.modes, 112).fault();
+}
+
+Fault check_lengths(const map_edit_t&) { return Fault::kNone; }
+
+Fault check_lengths(const map_edits_t& message) {
+  return Lengths().text(message.refusal).array(message.n_boxes, message.boxes, 84).fault();
 }
 
 Fault check_lengths(const map_octree_t& message) {

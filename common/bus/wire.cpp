@@ -13,6 +13,7 @@ constexpr std::int64_t kDouble = 8;
 constexpr std::int64_t kPoint = 3 * kFloat;
 constexpr std::int64_t kPoseMode = (3 + 9 + 3 + 2) * kDouble;
 constexpr std::int64_t kVoxelBlock = 3 * kInt32 + 8 * kInt64;
+constexpr std::int64_t kEditedBox = kInt64 + kInt32 + 9 * kDouble;
 constexpr std::int64_t kEmptyText = kInt32 + 1;
 
 }  // namespace
@@ -126,6 +127,15 @@ void walk(WireReader& in, const localisation_t*) {
   in.skip(2 * kDouble + 2 * kInt8 + kInt64 + kInt32 + 3 * kDouble);
 }
 
+void walk(WireReader& in, const map_edit_t*) { in.skip(3 * kInt64 + kInt32 + 6 * kDouble); }
+
+void walk(WireReader& in, const map_edits_t*) {
+  in.skip(3 * kInt64);
+  in.text();
+  in.skip(2 * kInt64);
+  in.array(kEditedBox);
+}
+
 void walk(WireReader& in, const map_octree_t*) {
   in.skip(3 * kInt64);
   in.array(1);
@@ -138,7 +148,7 @@ void walk(WireReader& in, const map_update_t*) {
   in.skip(5 * kInt64 + 2 * kInt32 + 2 * kDouble);
   in.array(kVoxelBlock);
   in.array(kVoxelBlock);
-  in.skip(kInt64 + 3 * kDouble);
+  in.skip(2 * kInt64 + 3 * kDouble);
 }
 
 void walk(WireReader& in, const mirror_state_t*) {

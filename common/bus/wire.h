@@ -87,6 +87,8 @@ class WireReader {
 void walk(WireReader& in, const health_t*);
 void walk(WireReader& in, const keyframe_t*);
 void walk(WireReader& in, const localisation_t*);
+void walk(WireReader& in, const map_edit_t*);
+void walk(WireReader& in, const map_edits_t*);
 void walk(WireReader& in, const map_octree_t*);
 void walk(WireReader& in, const map_request_t*);
 void walk(WireReader& in, const map_update_t*);
@@ -104,6 +106,8 @@ void walk(WireReader& in, const uncertain_pose_t*);
 Fault check_lengths(const health_t& message);
 Fault check_lengths(const keyframe_t& message);
 Fault check_lengths(const localisation_t& message);
+Fault check_lengths(const map_edit_t& message);
+Fault check_lengths(const map_edits_t& message);
 Fault check_lengths(const map_octree_t& message);
 Fault check_lengths(const map_request_t& message);
 Fault check_lengths(const map_update_t& message);

@@ -10,6 +10,8 @@
 #include <voxlist/health_t.hpp>
 #include <voxlist/keyframe_t.hpp>
 #include <voxlist/localisation_t.hpp>
+#include <voxlist/map_edit_t.hpp>
+#include <voxlist/map_edits_t.hpp>
 #include <voxlist/map_octree_t.hpp>
 #include <voxlist/map_request_t.hpp>
 #include <voxlist/map_update_t.hpp>
@@ -85,6 +87,12 @@ class Filler {
   void fill(pose_mode_t& m) { fill_all(m.pose, m.covariance, m.tilt, m.overlap, m.probability); }
   void fill(voxel_block_t& m) { fill_all(m.x, m.y, m.z, m.bits); }
   void fill(map_request_t& m) { fill_all(m.utime, m.want, m.first, m.map_id, m.version); }
+  void fill(edited_box_t& m) { fill_all(m.id, m.kind, m.lowest, m.highest, m.moved); }
+  void fill(map_edit_t& m) { fill_all(m.utime, m.map_id, m.action, m.id, m.lowest, m.highest); }
+  void fill(map_edits_t& m) {
+    fill_all(m.utime, m.map_id, m.answers, m.refusal, m.edits, m.moves);
+    list(m.n_boxes, m.boxes);
+  }
   void fill(rigid_transform_t& m) { fill_all(m.utime, m.trans, m.quat); }
   void fill(uncertain_pose_t& m) {
     fill_all(m.utime, m.map_id, m.map_version, m.cloud_utime, m.pose, m.covariance);

@@ -28,11 +28,11 @@ Kind kind(Channel<M> channel) {
 
 const std::vector<Kind>& kinds() {
   static const std::vector<Kind> all = {
-      kind(kCloud),     kind(kCloudSlice),     kind(kOdometry),  kind(kPose),
-      kind(kTruth),     kind(kPoseCovariance), kind(kMapOdom),   kind(kLocalisation),
-      kind(kMapUpdate), kind(kFreeSpace),      kind(kKeyframe),  kind(kMapRequest),
-      kind(kPoseHint),  kind(kOctomap),        kind(kObstacles), kind(kLaser),
-      kind(kMirror),    kind(kHealth)};
+      kind(kCloud),     kind(kCloudSlice),     kind(kOdometry), kind(kPose),
+      kind(kTruth),     kind(kPoseCovariance), kind(kMapOdom),  kind(kLocalisation),
+      kind(kMapUpdate), kind(kFreeSpace),      kind(kKeyframe), kind(kMapRequest),
+      kind(kMapEdit),   kind(kMapEdits),       kind(kPoseHint), kind(kOctomap),
+      kind(kObstacles), kind(kLaser),          kind(kMirror),   kind(kHealth)};
   return all;
 }
 

@@ -5,6 +5,8 @@
 #include <voxlist/health_t.hpp>
 #include <voxlist/keyframe_t.hpp>
 #include <voxlist/localisation_t.hpp>
+#include <voxlist/map_edit_t.hpp>
+#include <voxlist/map_edits_t.hpp>
 #include <voxlist/map_octree_t.hpp>
 #include <voxlist/map_request_t.hpp>
 #include <voxlist/map_update_t.hpp>
@@ -20,6 +22,7 @@
 #include "tests/bus/forge.h"
 #include "voxlist/bus/bus.h"
 #include "voxlist/bus/convert.h"
+#include "voxlist/bus/maps/edit_convert.h"
 #include "voxlist/bus/maps/map_convert.h"
 
 namespace voxlist::bus {
@@ -51,6 +54,8 @@ class Victim {
     listen(kLocalisation, Delivery::kEvery, [](const localisation_t&) {});
     listen(kMapRequest, Delivery::kEvery, [](const map_request_t&) {});
     listen(kPoseHint, Delivery::kEvery, [](const pose_hint_t& m) { from_message(m); });
+    listen(kMapEdit, Delivery::kEvery, [](const map_edit_t& m) { from_message(m); });
+    listen(kMapEdits, Delivery::kEvery, [](const map_edits_t& m) { from_message(m); });
     listen(kOctomap, Delivery::kEvery, [](const map_octree_t&) {});
     listen(kObstacles, Delivery::kLatest, [](const obstacles_t&) {});
     // A handler that fails counts too.

@@ -161,7 +161,7 @@ TEST(Wire, RefusesForgedLengthsOfEitherListOfAMapUpdate) {
   update.passed_blocks.resize(3);
   update.n_passed_blocks = 3;
   const Buffer bytes = encoded(update);
-  constexpr std::size_t kBlockBytes = 76, kAfterThem = 32;
+  constexpr std::size_t kBlockBytes = 76, kAfterThem = 40;
   const std::size_t passed_count_at = bytes.size() - kAfterThem - 3 * kBlockBytes - 4;
   for (const std::size_t at : {passed_count_at - 2 * kBlockBytes - 4, passed_count_at}) {
     EXPECT_EQ(check_wire<map_update_t>(with_u32(bytes, at, 0xFFFFFFFF)), Fault::kBadLength);

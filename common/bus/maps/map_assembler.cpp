@@ -30,12 +30,13 @@ void for_each_corner(const std::vector<voxel_block_t>& blocks, double resolution
 
 MapChange header_of(const map_update_t& m) {
   return {m.utime,          m.map_id, m.version, m.base_version,
-          resolution_of(m), {},       m.moves,   {m.moved[0], m.moved[1], m.moved[2]}};
+          resolution_of(m), {},       m.moves,   {m.moved[0], m.moved[1], m.moved[2]},
+          m.edits};
 }
 
 bool leads_to_the_same(const MapChange& a, const MapChange& b) {
   return a.map_id == b.map_id && a.version == b.version && a.base_version == b.base_version &&
-         a.moves == b.moves;
+         a.moves == b.moves && a.edits == b.edits;
 }
 
 void append(const std::vector<voxel_block_t>& more, std::vector<voxel_block_t>& blocks) {

@@ -45,6 +45,7 @@ std::vector<map_update_t> split_map(MapChange change) {
     message.chunk = static_cast<std::int32_t>(chunk);
     message.n_chunks = static_cast<std::int32_t>(n_chunks);
     message.moves = change.moves;
+    message.edits = change.edits;
     const Pose2& moved = change.T_new_old;
     std::ranges::copy(std::array{moved.x_m, moved.y_m, moved.yaw_rad}, message.moved);
     message.resolution_m = change.resolution.occupied_m;

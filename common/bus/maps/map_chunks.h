@@ -46,7 +46,8 @@ struct MapChange {
   /// Time of the newest cloud that the mapper has decided on, microseconds.
   std::int64_t utime_us = 0;
   std::int64_t map_id = 0;
-  /// Keyframes in the map after the change, and how often they were moved.
+  /// Keyframes in the map after the change, how often they were moved, and how often the map was
+  /// edited by hand.
   std::int64_t version = 0;
   /// Version before it; kWholeMap: replaces whatever was; `version`: nothing changed, there are no
   /// blocks.
@@ -56,6 +57,8 @@ struct MapChange {
   /// How often keyframes were moved so far; how the newest one was, the last time.
   std::int64_t moves = 0;
   Pose2 T_new_old{};
+  /// How often the map was edited so far.
+  std::int64_t edits = 0;
 
   bool is_whole() const { return base_version == kWholeMap; }
 };

@@ -29,7 +29,7 @@ bool versions_follow(const map_update_t& m) {
   const bool increment = m.version > 0 && m.base_version == m.version - 1;
   const bool whole = m.base_version == kWholeMap, nothing_changed = m.base_version == m.version;
   return m.version >= 0 && (whole || nothing_changed || increment) && m.moves >= 0 &&
-         m.moves <= m.version;
+         m.moves <= m.version && m.edits >= 0 && m.edits <= m.version - m.moves;
 }
 
 // A keyframe is moved within the map.

@@ -34,7 +34,7 @@ MapperWord::MapperWord(bus::Health& health, std::string channel)
 bool MapperWord::take(const map_update_t& update) {
   if (refuse(update)) return false;
   if (question_us_ != 0 && update.answers == question_us_)
-    take_answer({update.map_id, update.version, update.moves});
+    take_answer({update.map_id, update.version, update.moves, update.edits});
   else
     take_rumour(update);
   const bool is_ours = word_ && word_->map_id == update.map_id;
@@ -78,7 +78,7 @@ void MapperWord::take_rumour(const map_update_t& update) {
   }
   const bool is_whole = update.base_version == bus::kWholeMap;
   if (!is_whole && update.base_version == word_->version)
-    word_ = {update.map_id, update.version, update.moves};
+    word_ = {update.map_id, update.version, update.moves, update.edits};
   // The parts of a whole map may come after what was added to it meanwhile.
   if (update.version > word_->version || (update.version < word_->version && !is_whole)) doubt();
 }

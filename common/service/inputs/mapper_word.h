@@ -20,11 +20,12 @@ class MapperWord {
  public:
   struct Word {
     std::int64_t map_id;
-    /// Keyframes in the map, and how often they were moved; 0: it is empty.
+    /// Keyframes in the map, how often they were moved, and how often it was edited by hand; 0: it
+    /// is empty.
     std::int64_t version;
-    std::int64_t moves = 0;
+    std::int64_t moves = 0, edits = 0;
 
-    std::int64_t keyframes() const { return version - moves; }
+    std::int64_t keyframes() const { return version - moves - edits; }
   };
 
   /// `channel`: MAP_UPDATE, or another one that carries such messages of the mapper's.
