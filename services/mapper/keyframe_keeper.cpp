@@ -9,6 +9,7 @@
 #include "voxlist/bus/health.h"
 #include "voxlist/io/files/file.h"
 #include "voxlist/io/files/keep_aside.h"
+#include "voxlist/mapping/edits/stored_edits.h"
 #include "voxlist/mapping/keyframe_reader.h"
 #include "voxlist/mapping/keyframe_writer.h"
 
@@ -43,6 +44,7 @@ void KeyframeKeeper::open_store(const Take& restore) {
   store_ = std::make_unique<mapping::MapStore>(folder_, map_id_, restore);
   map_id_ = store_->map_id();
   moves_ = store_->moves();
+  edits_ = store_->edits();
   health_.raise("damage", State::kWarning, store_->notice());
 }
 
@@ -61,7 +63,10 @@ void KeyframeKeeper::open_read_only(const Take& restore) {
   }
   map_id_ = reader.map_id().value_or(map_id_);
   moves_ = reader.moves();
+  mapping::FoundEdits found = mapping::find_edits(folder_, map_id_);
+  edits_ = std::move(found.edits);
   health_.raise("damage", State::kWarning, reader.warning());
+  health_.raise("edits", State::kWarning, found.fault);
   served_ = std::make_unique<mapping::StoredKeyframes>(file, std::move(places));
 }
 
@@ -107,6 +112,15 @@ bool KeyframeKeeper::write_graph(const mapping::StoredGraph& graph) try {
   return false;
 }
 
+std::string KeyframeKeeper::write_edits(mapping::MapEdits edits) try {
+  if (store_) store_->write_edits(edits);
+  edits_ = std::move(edits);
+  return {};
+} catch (const io::FileError& error) {
+  health_.count("save_failed");
+  return error.what();
+}
+
 void KeyframeKeeper::add(mapping::Keyframe keyframe) {
   waiting_bytes_ += bytes_of(keyframe);
   waiting_.push_back(std::move(keyframe));
@@ -116,6 +130,7 @@ void KeyframeKeeper::add(mapping::Keyframe keyframe) {
 bool KeyframeKeeper::begin_anew(std::int64_t new_map_id) try {
   if (store_) store_->begin_anew(new_map_id);
   map_id_ = new_map_id;
+  edits_ = {};
   waiting_.clear();
   waiting_bytes_ = 0;
   health_.clear("keyframes");
@@ -184,6 +199,7 @@ void KeyframeKeeper::copy_to(const std::filesystem::path& folder) {
   mapping::NewKeyframeFile file(folder / mapping::kKeyframeFile, map_id_);
   for (std::size_t i = 0; i < size(); ++i) file.add(read(i));
   file.commit();
+  if (edits_.changes > 0) mapping::write_edits(folder, edits_);
 }
 
 void KeyframeKeeper::fail(const std::string& what, const std::string& sentence) {

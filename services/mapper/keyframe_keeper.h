@@ -54,6 +54,12 @@ class KeyframeKeeper {
   /// take it: then they stand where they stood.
   bool write_graph(const mapping::StoredGraph& graph);
 
+  /// The map's boxes that were edited by hand.
+  const mapping::MapEdits& edits() const { return edits_; }
+
+  /// Takes other edits, on the disk first. Returns why it does not, for people; empty: it does.
+  std::string write_edits(mapping::MapEdits edits);
+
   /// How often the folder's keyframes were moved before.
   std::int64_t moves() const { return moves_; }
 
@@ -90,6 +96,7 @@ class KeyframeKeeper {
   const std::vector<StampedPose3>& poses_;
   std::int64_t map_id_;
   std::int64_t moves_ = 0;
+  mapping::MapEdits edits_;
   std::unique_ptr<mapping::MapStore> store_;          // of a map that is written
   std::unique_ptr<mapping::StoredKeyframes> served_;  // of one that is not
   std::deque<mapping::Keyframe> waiting_;             // after those on the disk

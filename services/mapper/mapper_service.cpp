@@ -102,7 +102,9 @@ MapperService::MapperService(bus::Bus& bus, bus::Health& health, const MapperSer
       is_extending_(config.extend),
       cloud_input_(health),
       map_channel_(bus, health, sender_, bus::kMapUpdate),
-      free_channel_(bus, health, sender_, bus::kFreeSpace) {
+      free_channel_(bus, health, sender_, bus::kFreeSpace),
+      edit_channel_(bus, health, sender_) {
+  builder_.edit(keyframes_.edits());
   recall_graph();
   bus_.subscribe(bus::kCloud, [this](const pointcloud_t& message) { take_cloud(message); });
   bus_.subscribe(bus::kLocalisation,
@@ -245,6 +247,33 @@ void MapperService::move(ClosedMap closed) {
   closed_loops_ = std::move(closed.drawn);
   health_.count("maps_moved");
   send_change(before);
+  if (!keyframes_.edits().edits.empty()) edit_channel_.tell(edited_boxes(), 0);
+}
+
+// On the disk first, as a move. Returns why not; empty: it is done.
+std::string MapperService::edit(const bus::EditWish& wish) {
+  if (wish.map_id != map_id_) return "it is of another map";
+  if (!config_.extend) return "the mapper only serves its map (extend = false)";
+  mapping::MapEdits edits = keyframes_.edits();
+  edits.map_id = map_id_;
+  if (!wish.kind && !edits.remove(wish.id)) return fmt::format("there is no edit {}", wish.id);
+  if (wish.kind) {
+    if (std::string why = edits.refusal(wish.box, builder_.poses()); !why.empty()) return why;
+    edits.add(*wish.kind, wish.box, builder_.poses());
+  }
+  const std::int64_t before = version();
+  if (std::string why = keyframes_.write_edits(edits); !why.empty()) return why;
+  builder_.edit(std::move(edits));
+  send_change(before);
+  return {};
+}
+
+bus::EditedBoxes MapperService::edited_boxes() const {
+  const mapping::MapEdits& edits = keyframes_.edits();
+  bus::EditedBoxes boxes{
+      decided_utime_us_, map_id_, edits.changes, moves_, {}, edits.placed(builder_.poses())};
+  for (const mapping::MapEdit& edit : edits.edits) boxes.ids.push_back(edit.id);
+  return boxes;
 }
 
 void MapperService::take_request(const map_request_t& message) {
@@ -265,6 +294,8 @@ void MapperService::take_request(const map_request_t& message) {
       return set_extending(false);
     case map_request_t::WANT_EXTEND:
       return set_extending(true);
+    case map_request_t::WANT_EDITS:
+      return edit_channel_.tell(edited_boxes(), message.utime);
     case map_request_t::WANT_WORD:
     case map_request_t::WANT_NEW_MAP:
       return;
@@ -297,6 +328,7 @@ void MapperService::give_up(std::int64_t map_id) {
   resends_queued_ = 0;
   map_channel_.clear();
   free_channel_.clear();
+  edit_channel_.clear();
   health_.count("maps_given_up");
   health_.raise("given_up", bus::Health::State::kWarning,
                 "the map's first cloud was given up, as no other fits it: was something before the "
@@ -319,6 +351,7 @@ bus::MapChange MapperService::nothing_new(const OccupancyMap& map) const {
   change.resolution = bus::resolution_of(map);
   change.moves = moves_;
   change.T_new_old = T_new_old_;
+  change.edits = keyframes_.edits().changes;
   return change;
 }
 
@@ -389,6 +422,9 @@ void MapperService::tick(std::int64_t now_us) {
   if (now_us_ == 0) send_word(0);  // whoever has another map drops it
   now_us_ = now_us;
   cloud_input_.tick(now_us);
+  edit_channel_.tick(
+      now_us, [this](const bus::EditWish& wish) { return edit(wish); },
+      [this] { return edited_boxes(); });
   sender_.run(now_us);
   if (is_extending_)
     if (auto closed = loops_.tick(now_us, [this] { return keyframes_.open_again(); }))

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "services/mapper/apart/apart_session.h"
+#include "services/mapper/edit_channel.h"
 #include "services/mapper/keyframe_keeper.h"
 #include "services/mapper/loops/loop_keeper.h"
 #include "services/mapper/map_channel.h"
@@ -73,7 +74,8 @@ struct MapperServiceConfig {
 /// written is. A map whose only cloud no other fits is given up when it is asked for. A folder that
 /// vanishes costs nothing either: the map goes on in a fresh one beside it. Where the robot came
 /// back to ground of long before, keyframes move to where all scans agree: a new version of the
-/// map, which goes out as a change once it is whole and the graph is on the disk.
+/// map, which goes out as a change once it is whole and the graph is on the disk. So does an edit
+/// by hand (MAP_EDIT), once it is on the disk.
 class MapperService {
  public:
   /// Loads the folder's map. Throws FileError when there is one that cannot be read, when no folder
@@ -104,6 +106,8 @@ class MapperService {
   void add(Cloud cloud, const Pose3& pose, const std::optional<Pose2>& T_odom_base);
   void recall_graph();
   void move(ClosedMap closed);
+  std::string edit(const bus::EditWish& wish);
+  bus::EditedBoxes edited_boxes() const;
   std::optional<Cloud> take_waiting_cloud(std::int64_t utime_us);
   void send_change(std::int64_t base_version);
   void send_map_change(std::int64_t base_version);
@@ -119,7 +123,9 @@ class MapperService {
   void send_keyframe(std::size_t index);
   void save();
   void save_on_request();
-  std::int64_t version() const { return std::ssize(builder_.poses()) + moves_; }
+  std::int64_t version() const {
+    return std::ssize(builder_.poses()) + moves_ + keyframes_.edits().changes;
+  }
 
   bus::Bus& bus_;
   bus::Health& health_;
@@ -140,6 +146,7 @@ class MapperService {
   std::deque<Cloud> recent_clouds_;
   bus::PacedSender sender_;
   MapChannel map_channel_, free_channel_;
+  EditChannel edit_channel_;
   bool is_free_space_wanted_ = false;
   std::int64_t decided_utime_us_ = 0;
   // Requests are answered one at a time, whoever asks and however often.

@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <utility>
 #include <voxlist/keyframe_t.hpp>
+#include <voxlist/map_edits_t.hpp>
 #include <voxlist/map_octree_t.hpp>
 #include <voxlist/map_request_t.hpp>
 #include <voxlist/map_update_t.hpp>
@@ -64,9 +65,11 @@ OctomapExportService::OctomapExportService(bus::Bus& bus, bus::Health& health,
       folder_(in_state_folder(config.folder)),
       cut_(planning::cut_of(config.octomap)),
       builder_(config.octomap),
-      word_(health) {
+      word_(health),
+      edits_(health) {
   if (!folder_.empty()) io::remove_stale_temporaries(folder_);
   bus_.subscribe(bus::kKeyframe, [this](const keyframe_t& m) { take(m); });
+  bus_.subscribe(bus::kMapEdits, [this](const map_edits_t& m) { edits_.take(m); });
   bus_.subscribe(bus::kMapUpdate, [this](const map_update_t& m) { take_word(m); });
 }
 
@@ -143,30 +146,53 @@ void OctomapExportService::tick(std::int64_t now_us) {
     quiet_since_us_ = now_us;
   }
   if (const auto first = missing()) ask(*first, now_us);
+  follow_edits(now_us);
   if (service::stop_requested()) return;
-  if (publishing_.due(now_us, kPublishPeriod_us)) publish(now_us);
+  if (has_edits() && publishing_.due(now_us, kPublishPeriod_us)) publish(now_us);
   // While it catches up, a file of an earlier run holds more than it does: the first period starts
   // with the service, and none ends before everything is in.
   if (!saving_.last_us) saving_.last_us = now_us;
   const auto save_period_us = static_cast<std::int64_t>(config_.save_period_s * kSecond_us);
-  if (save_period_us > 0 && queue_.is_done() && saving_.due(now_us, save_period_us)) save(now_us);
+  const bool is_whole = queue_.is_done() && has_edits();
+  if (save_period_us > 0 && is_whole && saving_.due(now_us, save_period_us)) save(now_us);
   report();
 }
 
 void OctomapExportService::stop() {
-  if (!saving_.changed) return;
+  if (!saving_.changed || !has_edits()) return;
   save(0);
   if (!save_error_.empty()) throw std::runtime_error("the last save failed: " + save_error_);
 }
 
 void OctomapExportService::insert(const bus::PosedCloud& keyframe) {
-  if (keyframe.index == 0) builder_ = planning::OctomapBuilder(config_.octomap);
+  if (keyframe.index == 0) {
+    builder_ = planning::OctomapBuilder(config_.octomap);
+    edits_.start_over();
+  }
   builder_.insert(keyframe.T_map_base, keyframe.cloud, service::stop_requested);
   map_id_ = keyframe.map_id;
   utime_us_ = keyframe.cloud.utime_us;
   keyframes_ = keyframe.index + std::int64_t{1};
+  note_change();
+}
+
+void OctomapExportService::note_change() {
   publishing_.changed = true;
   saving_.changed = !folder_.empty();
+}
+
+void OctomapExportService::follow_edits(std::int64_t now_us) {
+  if (!word_.word()) return;
+  if (edits_.is_due(*word_.word(), now_us)) request(map_request_t::WANT_EDITS, 0, now_us);
+  const auto boxes = edits_.news(*word_.word());
+  if (!boxes) return;
+  builder_.edit(*boxes);
+  note_change();
+}
+
+// What was erased by hand is not told as if it were there.
+bool OctomapExportService::has_edits() const {
+  return !word_.word() || edits_.follows(*word_.word());
 }
 
 // A whole answer without the word on how many there are: there may be more.
@@ -237,6 +263,7 @@ void OctomapExportService::report() {
   health_.gauge("keyframes_waiting", static_cast<double>(queue_.waiting()));
   health_.raise("save", State::kError, save_error_);
   health_.raise("reach", State::kWarning, reach_sentence(builder_.reach_m()));
+  health_.raise("edits", State::kWarning, has_edits() ? "" : "waits for the map's edits by hand");
   if (!missing) return health_.clear("keyframes");
   if (*missing == 0)
     return health_.raise("keyframes", State::kOk, "waits for the map's first keyframe");

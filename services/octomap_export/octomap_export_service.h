@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "services/octomap_export/edit_follower.h"
 #include "services/octomap_export/keyframe_queue.h"
 #include "voxlist/bus/channels.h"
 #include "voxlist/planning/octomap.h"
@@ -68,6 +69,9 @@ class OctomapExportService {
   bool is_contradicted_by(const bus::PosedCloud& keyframe);
   void settle_suspicion(std::int64_t now_us);
   void insert(const bus::PosedCloud& keyframe);
+  void follow_edits(std::int64_t now_us);
+  bool has_edits() const;
+  void note_change();
   std::optional<std::int32_t> missing() const;
   void ask(std::int32_t first, std::int64_t now_us);
   void request(std::int32_t want, std::int32_t first, std::int64_t utime_us);
@@ -93,6 +97,7 @@ class OctomapExportService {
   std::optional<std::int64_t> quiet_since_us_;  // last keyframe inserted, or asked for
   std::int32_t asked_up_to_ = -1;               // index after the last one that was asked for
   service::MapperWord word_;
+  EditFollower edits_;
   std::int64_t moves_ = 0;  // how often the keyframes were moved, as the mapper says
   std::int64_t now_us_ = 0;
   // A keyframe that another one was handed out instead of: who is right, the mapper is asked.
