@@ -34,8 +34,8 @@ class Usage : public testing::Test {
 
 TEST_F(Usage, IsExplainedWithExamplesByEachCommand) {
   for (const std::string command :
-       {"import", "map", "extend", "merge", "rebuild", "localise", "evaluate", "info", "export",
-        "octomap", "simulate", "calibrate", "watch", "health", "bus"}) {
+       {"import", "map", "extend", "merge", "rebuild", "localise", "evaluate", "edit", "info",
+        "export", "octomap", "simulate", "calibrate", "watch", "health", "bus"}) {
     const test::DeskRun run = test::run({command, "--help"});
     EXPECT_EQ(run.exit_code, 0);
     EXPECT_THAT(run.out, HasSubstr("  voxlist " + command + " "));

@@ -24,6 +24,7 @@ void add_localise(CLI::App& program, Command& chosen);
 void add_localise_only(CLI::App& program, Command& chosen);
 void add_hint(CLI::App& program, Command& chosen);
 void add_evaluate(CLI::App& program, Command& chosen);
+void add_edit(CLI::App& program, Command& chosen);
 void add_info(CLI::App& program, Command& chosen);
 void add_export(CLI::App& program, Command& chosen);
 void add_octomap(CLI::App& program, Command& chosen);

@@ -76,6 +76,7 @@ int run_desk(std::vector<std::string> arguments, Console& console) {
   add_localise_only(program, chosen);
   add_hint(program, chosen);
   add_evaluate(program, chosen);
+  add_edit(program, chosen);
   add_info(program, chosen);
   add_export(program, chosen);
   add_octomap(program, chosen);

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "services/voxlist/commands/command.h"
+#include "services/voxlist/maps/stored_map.h"
 #include "services/voxlist/maps/summary.h"
 #include "services/voxlist/output/console.h"
 #include "services/voxlist/output/stop.h"
@@ -23,12 +24,16 @@ struct InfoOptions {
 // What a map folder's keyframe file tells.
 class MapInfo {
  public:
-  explicit MapInfo(const std::filesystem::path& folder) : reader_(folder / mapping::kKeyframeFile) {
+  MapInfo(const std::filesystem::path& folder, Console& console)
+      : reader_(folder / mapping::kKeyframeFile) {
     while (!stop_requested()) {
       auto keyframe = reader_.next();
       if (!keyframe) break;
       add(std::move(*keyframe));
     }
+    mapping::MapEdits edits = edits_of(folder, console);
+    edits_ = edits.edits.size();
+    builder_.edit(std::move(edits));
   }
 
   nlohmann::ordered_json json() const {
@@ -43,6 +48,7 @@ class MapInfo {
         {"voxels", map.size()},
         {"resolution_m", map.resolution_m()},
         {"map_hash", hash_text(map)},
+        {"edits", edits_},
         {"way_m", way_m_},
         {"first_utime", keyframes > 0 ? builder_.poses().front().utime_us : 0},
         {"last_utime", keyframes > 0 ? builder_.poses().back().utime_us : 0},
@@ -63,12 +69,12 @@ class MapInfo {
 
   mapping::KeyframeReader reader_;
   mapping::MapBuilder builder_;
-  std::size_t points_ = 0;
+  std::size_t points_ = 0, edits_ = 0;
   double way_m_ = 0.0;
 };
 
 int info(const InfoOptions& options, Console& console) {
-  const MapInfo map(options.folder);
+  const MapInfo map(options.folder, console);
   if (stop_requested()) {
     console.warn("interrupted: the map was not read to its end");
     return kInterrupted;

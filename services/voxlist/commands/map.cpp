@@ -133,6 +133,7 @@ int map(const MapOptions& options, Console& console) {
     files.write_views(run.builder().map(), run.trajectory(), run.closed_loops());
   });
   files.write_keyframes(spool, run.keyframes(), voxels);
+  files.give_up_edits(console);
   tell(options, run, figures, console);
   if (figures.interrupted) console.warn("interrupted: the map ends there");
   files.write_octomap(settings.octomap, threads, !options.making.no_octomap, console);

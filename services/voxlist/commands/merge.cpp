@@ -15,6 +15,7 @@
 #include "voxlist/io/files/file.h"
 #include "voxlist/mapping/keyframe_reader.h"
 #include "voxlist/mapping/map_store.h"
+#include "voxlist/voxels/edits/edit_limits.h"
 
 namespace voxlist::desk {
 namespace {
@@ -87,6 +88,15 @@ std::string refusal(const MergeOptions& options, const Meeting& meeting) {
                      maps, fit);
 }
 
+// Those of both, each on its own map's keyframes.
+mapping::MapEdits edits_of_both(const MergeOptions& options, const Piece& piece, Console& console) {
+  mapping::MapEdits edits = edits_of(options.first, console);
+  edits.append(edits_of(options.second, console), piece.first_session());
+  if (const std::string fault = fault_of(edits.boxes()); !fault.empty())
+    throw io::FileError(options.folder, "cannot have the edits of both maps: " + fault);
+  return edits;
+}
+
 std::vector<StampedPose3> by_time(std::vector<StampedPose3> trajectory) {
   std::stable_sort(trajectory.begin(), trajectory.end(),
                    [](const auto& a, const auto& b) { return a.utime_us < b.utime_us; });
@@ -105,7 +115,7 @@ RunFigures figures_of(const MergeOptions& options, const Piece& piece,
 }
 
 void write(const MergeOptions& options, const DeskSettings& settings, const Piece& piece,
-           mapping::KeyframeSpool& spool, const RunFigures& figures,
+           mapping::KeyframeSpool& spool, mapping::MapEdits edits, const RunFigures& figures,
            const drawing::ClosedLoops& closed, Console& console) {
   MapFiles files(options.folder);
   const FileLock lock = mapping::lock_folder(options.folder);
@@ -113,6 +123,7 @@ void write(const MergeOptions& options, const DeskSettings& settings, const Piec
   const VoxelMap& voxels = piece.builder().map().occupied;
   files.write_views(piece.builder().map(), by_time(piece.trajectory()), closed);
   files.write_keyframes(spool, piece.keyframes(), voxels);
+  if (!edits.edits.empty()) files.write_edits(std::move(edits), voxels);
   files.write_octomap(settings.octomap, settings.localiser.threads, !options.making.no_octomap,
                       console);
   Summary summary = summary_of(figures);
@@ -142,7 +153,9 @@ int merge(const MergeOptions& options, Console& console) {
   const PieceClosing closing = close_piece(*piece, spool, matcher);
   const RunFigures figures = figures_of(options, *piece, closing);
   refuse_after_interrupt(options.folder);
-  write(options, settings, *piece, spool, figures, closing.drawn, console);
+  const mapping::MapEdits edits = edits_of_both(options, *piece, console);
+  piece->edit(edits);
+  write(options, settings, *piece, spool, edits, figures, closing.drawn, console);
   console.say(fmt::format(
       "{} of {} scans on ground of both fit: {} and {} keyframes, {} voxels, hash {}",
       meeting.fitting, meeting.asked, piece->first_session(), other->keyframes().size(),

@@ -6,6 +6,7 @@
 #include "services/voxlist/maps/octomap_of.h"
 #include "voxlist/io/files/atomic_file.h"
 #include "voxlist/io/files/file.h"
+#include "voxlist/mapping/edits/stored_edits.h"
 #include "voxlist/mapping/graph/stored_graph.h"
 #include "voxlist/mapping/map_store.h"
 #include "voxlist/mapping/map_views.h"
@@ -39,6 +40,16 @@ void MapFiles::write_keyframes(mapping::KeyframeSpool& spool,
                                const VoxelMap& map) const {
   spool.write(folder_ / mapping::kKeyframeFile, map_id(map), keyframes);
   mapping::remove_graph(folder_);
+}
+
+void MapFiles::give_up_edits(Console& console) const {
+  if (const auto aside = mapping::give_up_edits(folder_))
+    console.warn("the edits of the map before are kept as " + aside->string());
+}
+
+void MapFiles::write_edits(mapping::MapEdits edits, const VoxelMap& map) const {
+  edits.map_id = map_id(map);
+  mapping::write_edits(folder_, edits);
 }
 
 void MapFiles::write_views(const OccupancyMap& map, const std::vector<StampedPose3>& trajectory,

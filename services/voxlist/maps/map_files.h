@@ -25,6 +25,12 @@ class MapFiles {
                        const std::vector<mapping::SpooledKeyframe>& keyframes,
                        const VoxelMap& map) const;
 
+  /// Keeps edits of the map before aside, and tells where. Throws FileError.
+  void give_up_edits(Console& console) const;
+
+  /// Writes the edits of the map whose keyframes were written. Throws FileError.
+  void write_edits(mapping::MapEdits edits, const VoxelMap& map) const;
+
   /// Writes trajectory, voxels and picture. Throws FileError.
   void write_views(const OccupancyMap& map, const std::vector<StampedPose3>& trajectory,
                    const drawing::ClosedLoops& closed = {}) const;

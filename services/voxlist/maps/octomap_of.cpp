@@ -4,7 +4,9 @@
 
 #include <cmath>
 #include <utility>
+#include <vector>
 
+#include "services/voxlist/maps/stored_map.h"
 #include "services/voxlist/output/progress.h"
 #include "services/voxlist/output/stop.h"
 #include "voxlist/mapping/keyframe_reader.h"
@@ -44,11 +46,14 @@ std::optional<planning::OctomapBuilder> octomap_of(const std::filesystem::path& 
   mapping::KeyframeReader keyframes(folder / mapping::kKeyframeFile);
   planning::OctomapBuilder octomap(config);
   Progress progress(console, "making the OctoMap");
+  const mapping::MapEdits edits = edits_of(folder, console);
+  std::vector<StampedPose3> poses;
   int beyond = 0;
   const auto next = [&]() -> std::optional<planning::PosedCloud> {
     auto keyframe = keyframes.next();
     if (!keyframe) return std::nullopt;
     beyond += is_beyond(*keyframe, config);
+    poses.push_back({keyframe->cloud.utime_us, keyframe->T_map_base});
     progress.show(keyframes.progress());
     return planning::PosedCloud{keyframe->T_map_base, std::move(keyframe->cloud)};
   };
@@ -56,6 +61,7 @@ std::optional<planning::OctomapBuilder> octomap_of(const std::filesystem::path& 
   tell_what_lies_beyond(beyond, config, console);
   tell_if_shortened(octomap.reach_m(), console);
   if (!whole || stop_requested()) return std::nullopt;
+  octomap.edit(edits.placed(poses));
   return octomap;
 }
 

@@ -42,6 +42,9 @@ class Piece {
   /// Adds a scan to the map at its pose.
   void add(Cloud cloud, const Pose3& T_piece_base);
 
+  /// Takes edits by hand. No scan is looked for in it afterwards.
+  void edit(mapping::MapEdits edits) { builder_.edit(std::move(edits)); }
+
   /// Takes the poses of all scans that were placed, where they were placed elsewhere.
   void set_trajectory(std::vector<StampedPose3> T_piece_base) {
     trajectory_ = std::move(T_piece_base);

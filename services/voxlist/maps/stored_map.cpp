@@ -7,6 +7,7 @@
 #include "services/voxlist/output/stop.h"
 #include "voxlist/io/files/file.h"
 #include "voxlist/io/poses/trajectory.h"
+#include "voxlist/mapping/edits/stored_edits.h"
 #include "voxlist/mapping/keyframe_reader.h"
 #include "voxlist/mapping/map_store.h"
 
@@ -48,6 +49,13 @@ void refuse_without_map(const fs::path& folder) {
                         "is not there; give the folder of a map, or make one with voxlist map");
 }
 
+mapping::MapEdits edits_of(const fs::path& folder, Console& console) {
+  mapping::FoundEdits found = mapping::find_edits(
+      folder, mapping::KeyframeReader(folder / mapping::kKeyframeFile).map_id());
+  if (!found.fault.empty()) console.warn(found.fault);
+  return std::move(found.edits);
+}
+
 StoredMap read_map(const fs::path& folder, const mapping::MapBuilderConfig& config,
                    Console& console) {
   refuse_without_map(folder);
@@ -63,6 +71,7 @@ StoredMap read_map(const fs::path& folder, const mapping::MapBuilderConfig& conf
   if (!reader.warning().empty()) console.warn(reader.warning());
   if (map.poses.empty())
     throw io::FileError(folder, "holds an empty map, make one with voxlist map");
+  map.builder.edit(edits_of(folder, console));
   return map;
 }
 

@@ -17,6 +17,9 @@ struct StoredMap {
 /// Throws FileError when the folder holds no keyframe file.
 void refuse_without_map(const std::filesystem::path& folder);
 
+/// The folder's boxes that were edited by hand; tells what is wrong with their file.
+mapping::MapEdits edits_of(const std::filesystem::path& folder, Console& console);
+
 /// Reads a folder's map, a keyframe at a time; tells what is damaged. Throws FileError when there
 /// is no map or an empty one, or after Ctrl-C.
 StoredMap read_map(const std::filesystem::path& folder, const mapping::MapBuilderConfig& config,

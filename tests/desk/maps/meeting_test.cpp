@@ -5,8 +5,10 @@
 
 #include <filesystem>
 #include <memory>
+#include <sstream>
 
 #include "services/voxlist/maps/map_files.h"
+#include "services/voxlist/maps/stored_map.h"
 #include "tests/bench/drives/twin_drive.h"
 #include "tests/desk/scan_set.h"
 #include "tests/simulation/sphere_scan.h"
@@ -54,11 +56,35 @@ class MeetingTest : public testing::Test {
     return test::run({"merge", first, second, "-o", both_, "--octomap-resolution", "0.4"});
   }
 
+  // Erases a box of 1 m about a voxel of a map by hand, and returns where that was.
+  Eigen::Vector3d erase_some(const std::string& folder) {
+    const VoxelMap map = read_map(folder, {}, console_).builder.map().occupied;
+    std::optional<Eigen::Vector3d> found;
+    map.for_each_voxel([&](const Voxel& v) { found = center(v, map.resolution_m()); });
+    std::vector<std::string> arguments{"edit", folder, "erase"};
+    for (const double half_m : {-0.5, 0.5})
+      for (const double at : *found) arguments.push_back(std::to_string(at + half_m));
+    const test::DeskRun run = test::run(arguments);
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return *found;
+  }
+
+  // Voxels that a box of 1 m surely holds, however it is turned and a few centimetres away.
+  int voxels_about(const Eigen::Vector3d& point, const std::string& folder) {
+    const VoxelMap map = read_map(folder, {}, console_).builder.map().occupied;
+    int voxels = 0;
+    map.for_each_voxel(
+        [&](const Voxel& v) { voxels += (center(v, map.resolution_m()) - point).norm() < 0.4; });
+    return voxels;
+  }
+
   Meeting meet(Piece& map, const Piece& other) { return find_meeting(map, other, spool_, {}); }
 
   const test::TemporaryFolder folder_;
   const std::string both_ = (folder_.path() / "both").string();
   mapping::KeyframeSpool spool_{folder_.path()};
+  std::ostringstream printed_;
+  Console console_{printed_, printed_, false};
 };
 
 TEST_F(MeetingTest, TwoMapsOfOneFloorMeetWhereBothWereMade) {
@@ -92,8 +118,10 @@ TEST_F(MeetingTest, FewScansAreNotEnough) {
 }
 
 TEST_F(MeetingTest, MergeWritesAMapOfBoth) {
+  const Pose2 T_second_first{3.0, 4.0, 1.0};
   const std::string first = write("first", *map(offices(3), 0, 30)),
-                    second = write("second", *map(offices(3), 15, 45, {3.0, 4.0, 1.0}));
+                    second = write("second", *map(offices(3), 15, 45, T_second_first));
+  const Eigen::Vector3d erased_in_first = erase_some(first), erased_in_second = erase_some(second);
   const test::DeskRun run = merge(first, second);
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("30 and 30 keyframes"));
@@ -102,6 +130,8 @@ TEST_F(MeetingTest, MergeWritesAMapOfBoth) {
   const auto trajectory = io::read_tum(both_ + "/trajectory.tum");
   ASSERT_EQ(trajectory.size(), 60u);
   EXPECT_EQ(merge(first, second).exit_code, 1) << "replaced a map";
+  EXPECT_EQ(voxels_about(erased_in_first, both_), 0);
+  EXPECT_EQ(voxels_about(T_second_first.inverse() * erased_in_second, both_), 0);
 }
 
 TEST_F(MeetingTest, MergeRefusesOneMapTwiceAndAFolderInUse) {

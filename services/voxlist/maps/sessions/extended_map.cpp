@@ -15,6 +15,7 @@ ExtendedMap::ExtendedMap(const std::filesystem::path& folder,
       were_there_(poses_.size()) {
   if (!store_.notice().empty()) console.warn(store_.notice());
   if (poses_.empty()) throw io::FileError(folder, "holds an empty map, make one with voxlist map");
+  builder_.edit(store_.edits());
   const auto found = mapping::find_graph(folder, store_.map_id());
   if (found.graph) recall(mapping::GraphPoses(found.graph->keyframes));
 }
@@ -61,6 +62,7 @@ mapping::SessionClosing ExtendedMap::close(const matching::MatcherConfig& config
 mapping::MapBuilder ExtendedMap::rebuilt() {
   mapping::MapBuilder builder(config_);
   for (std::size_t i = 0; i < poses_.size(); ++i) builder.add(read(i));
+  builder.edit(store_.edits());
   return builder;
 }
 
