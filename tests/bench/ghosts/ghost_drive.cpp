@@ -176,13 +176,52 @@ class Day {
   const GhostLaser laser_;
 };
 
+bool is_in(const Building& building, const Box& box) {
+  const std::vector<Box>& boxes = building.solid.boxes();
+  return std::any_of(boxes.begin(), boxes.end(),
+                     [&](const Box& other) { return same(box, other); });
+}
+
 std::vector<Box> in_both(const Building& a, const Building& b) {
   std::vector<Box> both;
   for (const Box& box : a.solid.boxes())
-    if (std::any_of(b.solid.boxes().begin(), b.solid.boxes().end(),
-                    [&](const Box& other) { return same(box, other); }))
-      both.push_back(box);
+    if (is_in(b, box)) both.push_back(box);
   return both;
+}
+
+// The floor on three days: each time furniture and doors are elsewhere.
+struct Days {
+  explicit Days(int seed)
+      : floor(floor_16_13(seed)),
+        thin(thin_things(simulation::make_floor(floor.wing, floor.wings))),
+        first(day(0, 90.0)),
+        second(day(7, 65.0)),
+        third(day(8, 40.0)),
+        solid{simulation::BoxTree(thin), simulation::BoxTree(in_both(first, second)), first.solid} {
+  }
+
+  Building day(int changed, double doors_deg) const {
+    TestFloorConfig config = floor;
+    config.wing.changed = changed;
+    const Building building = simulation::make_floor(config.wing, config.wings);
+    return with(with(building, thin), doors(building, doors_deg * kRadPerDeg));
+  }
+
+  const TestFloorConfig floor;
+  const std::vector<Box> thin;
+  const Building first, second, third;
+  const Solid solid;
+};
+
+// As a person draws it, who sees where things are to a few centimetres.
+Eigen::AlignedBox3d drawn_about(const Box& box) {
+  constexpr double kDrawn_m = 0.05;
+  const auto [sine, cosine] = elementary::sine_cosine(box.yaw_rad);
+  const double s = std::abs(sine), c = std::abs(cosine);
+  const Eigen::Vector3d half(c * box.half_m.x() + s * box.half_m.y() + kDrawn_m,
+                             s * box.half_m.x() + c * box.half_m.y() + kDrawn_m,
+                             box.half_m.z() + kDrawn_m);
+  return {box.centre_m - half, box.centre_m + half};
 }
 
 }  // namespace
@@ -204,20 +243,27 @@ simulation::Trajectory lap(const Building& building) {
 }
 
 std::vector<GhostScan> ghost_drive(const GhostDriveConfig& config) {
-  const TestFloorConfig floor = floor_16_13(config.seed);
-  std::vector<Building> days{simulation::make_floor(floor.wing, floor.wings), later(floor)};
-  const std::vector<Box> thin = thin_things(days.front());
-  for (int i = 0; i < 2; ++i) {
-    Building& day = days[static_cast<std::size_t>(i)];
-    day = with(with(day, thin), doors(day, (i == 0 ? 90.0 : 65.0) * kRadPerDeg));
-  }
-  const Solid solid{simulation::BoxTree(thin), simulation::BoxTree(in_both(days[0], days[1])),
-                    days[0].solid};
+  const Days days(config.seed);
   std::vector<GhostScan> scans;
-  Day(days[0], solid, lap(days[0]), config, 0).scan(scans);
-  Day(days[1], solid, lap(days[1]), config, 1).scan(scans);
-  Day(days[1], solid, lap(days[1]), config, 2).scan(scans);
+  Day(days.first, days.solid, lap(days.first), config, 0).scan(scans);
+  Day(days.second, days.solid, lap(days.second), config, 1).scan(scans);
+  Day(days.second, days.solid, lap(days.second), config, 2).scan(scans);
   return scans;
+}
+
+std::vector<GhostScan> next_day(const GhostDriveConfig& config) {
+  const Days days(config.seed);
+  std::vector<GhostScan> scans;
+  Day(days.third, days.solid, lap(days.third), config, 3).scan(scans);
+  return scans;
+}
+
+std::vector<Eigen::AlignedBox3d> moved_away(const GhostDriveConfig& config) {
+  const Days days(config.seed);
+  std::vector<Eigen::AlignedBox3d> boxes;
+  for (const Box& box : days.first.solid.boxes())
+    if (!is_in(days.second, box)) boxes.push_back(drawn_about(box));
+  return boxes;
 }
 
 }  // namespace voxlist::bench

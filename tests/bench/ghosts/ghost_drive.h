@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cstdint>
 #include <vector>
 
@@ -41,5 +42,11 @@ simulation::Trajectory lap(const simulation::Building& building);
 
 /// Equal arguments give equal bits.
 std::vector<GhostScan> ghost_drive(const GhostDriveConfig& config);
+
+/// A lap on the day after, when furniture and doors were moved once more; people walk about.
+std::vector<GhostScan> next_day(const GhostDriveConfig& config);
+
+/// Boxes about what stood there on the first day and not on the second, as a person would erase it.
+std::vector<Eigen::AlignedBox3d> moved_away(const GhostDriveConfig& config);
 
 }  // namespace voxlist::bench
