@@ -8,11 +8,11 @@
 namespace voxlist::matching {
 namespace {
 
-// Floors are compared by powers of what they leave unexplained, as places in reach are
-// (reach_confidence.cpp).
 // Other floors are at least so far (m) above the robot's or below it: no table is one.
 constexpr double kStorey_m = 1.8;
 
+// Floors are compared by powers of what they leave unexplained, as places in reach are
+// (reach_confidence.cpp).
 constexpr double kPlacePower = 12.0, kSlack = 0.05;
 
 double log_unexplained(const FloorView& view) {
