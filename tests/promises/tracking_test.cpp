@@ -59,6 +59,17 @@ TEST(NoWrongClaimWhileTracking, AlongABareCorridorWithoutOdometry) {
   EXPECT_GE(claims.ambiguous, 0.9 * claims.scans);
 }
 
+// Surfaces hold nothing along the corridor, but doors tell by what a step of the wheels was too
+// long.
+TEST(NoWrongClaimWhileTracking, BetweenDoorsWhereWheelsSlip) {
+  const DriveClaims claims = claims_where("doors, slips", [](const DriveSpec& spec) {
+    return spec.place == Place::kCorridorWithDoors && spec.wheels == Wheels::kSlipping &&
+           spec.laser != Laser::kMirror && spec.step_m == 1.0;
+  });
+  EXPECT_EQ(claims.wrong(), 0);
+  EXPECT_GE(claims.near, 0.7 * claims.scans);
+}
+
 // A map of few scan lines has planes that only those lines make, and doors look alike.
 TEST(NoWrongClaimWhileTracking, BetweenDoorsWithoutOdometry) {
   const DriveClaims claims = claims_where("doors, no odometry", [](const DriveSpec& spec) {

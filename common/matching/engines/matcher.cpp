@@ -1,5 +1,6 @@
 #include "voxlist/matching/engines/matcher.h"
 
+#include "voxlist/matching/engines/along_way.h"
 #include "voxlist/matching/engines/filter_matcher.h"
 #include "voxlist/matching/engines/global_matcher.h"
 #include "voxlist/matching/engines/match_modes.h"
@@ -11,6 +12,17 @@ namespace {
 // A prior that is vaguer than this (m), as half a minute without odometry makes it, tells nothing:
 // then the search of the whole map alone says where the scan was taken. A judgement.
 constexpr double kVaguest_m = 20.0;
+
+Eigen::Vector3d unit(const Eigen::Vector2d& way) {
+  return Eigen::Vector3d(way.x(), way.y(), 0.0).normalized();
+}
+
+// A covariance that is known anew along a way.
+Eigen::Matrix3d with_sigma(const Eigen::Matrix3d& covariance, const Eigen::Vector3d& way,
+                           double sigma_m) {
+  const Eigen::Matrix3d along = way * way.transpose(), beside = Eigen::Matrix3d::Identity() - along;
+  return beside * covariance * beside + sigma_m * sigma_m * along;
+}
 
 class SearchMatcher : public Matcher {
  public:
@@ -38,6 +50,20 @@ class SearchMatcher : public Matcher {
     return matching::covariance_without_lines(surfels_, scan.points(), mode.pose, prior.covariance);
   }
 
+  std::optional<MatchMode> better_along(const PreparedScan& scan, const MatchMode& mode,
+                                        const UncertainPose& prior,
+                                        const Eigen::Vector2d& slip) override {
+    const auto place = matching::better_along(evidence(), surfels_, scan.few_rays(), mode.pose,
+                                              mode.evidence, slip);
+    if (!place || holds_along(scan, mode, prior, slip)) return std::nullopt;
+    const Eigen::Matrix3d covariance = with_sigma(prior.covariance, unit(slip), place->sigma_m);
+    std::vector<MatchMode> better =
+        held_by_surfaces(surfels_, scan.points(), {candidate(place->pose, mode.overlap_ratio)},
+                         {place->pose, covariance});
+    weigh_on_surfaces(evidence(), surfels_, scan.few_rays(), better);
+    return better.front();
+  }
+
   Match match_rivals(const PreparedScan& scan) override {
     return global_.match_rivals(scan, evidence());
   }
@@ -63,6 +89,16 @@ class SearchMatcher : public Matcher {
   }
 
  private:
+  // Whether surfaces hold a mode along a slip, lines left out.
+  bool holds_along(const PreparedScan& scan, const MatchMode& mode, const UncertainPose& prior,
+                   const Eigen::Vector2d& slip) {
+    UncertainPose loose = prior;
+    loose.covariance.topLeftCorner<2, 2>() += slip * slip.transpose();
+    const Eigen::Vector3d way = unit(slip);
+    const double variance = way.dot(covariance_without_lines(scan, mode, loose) * way);
+    return variance < kHeld_m * kHeld_m;
+  }
+
   // What was found in the whole map, as a prior has it.
   Match tracked(const PreparedScan& scan, const UncertainPose& prior, Match match) {
     if (worst_sigma_m(prior.covariance) < kVaguest_m)

@@ -115,6 +115,15 @@ class Matcher {
   virtual Eigen::Matrix3d covariance_without_lines(const PreparedScan& scan, const MatchMode& mode,
                                                    const UncertainPose& prior) = 0;
 
+  /// A place beside a mode that track() gave, along a way that wheels may have slipped on, where
+  /// the map explains the scan better than at the mode, by more than chance. Nothing where surfaces
+  /// hold the mode along the way. `slip`: how far to each side (m).
+  virtual std::optional<MatchMode> better_along(const PreparedScan&, const MatchMode&,
+                                                const UncertainPose& /*prior*/,
+                                                const Eigen::Vector2d& /*slip*/) {
+    return std::nullopt;
+  }
+
   /// As match() in the whole map, slower, with modes that overlap a good deal less: what else there
   /// is where one stands alone.
   virtual Match match_rivals(const PreparedScan& scan) { return match(scan, std::nullopt); }

@@ -13,6 +13,8 @@
 
 namespace voxlist::matching {
 
+struct ReachMatch;
+
 /// The last pose that is known, and what is known of the motion since: by odometry, or by its
 /// velocity. It outlives scans that fit nowhere: the motion since grows, and so does the
 /// doubt.
@@ -29,7 +31,7 @@ class PoseTrack {
   /// probabilities, the most probable first; what is missing to 1 is for none of them. Empty: the
   /// prediction is too vague for a window, or the scan nearly blind.
   Localisation match(Matcher& matcher, const PreparedScan& scan,
-                     const std::optional<Pose2>& T_odom_base) const;
+                     const std::optional<Pose2>& T_odom_base);
 
   /// Goes on from a pose that the scan of that time was matched to, and that the prediction is part
   /// of. Returns the pose that is believed.
@@ -51,6 +53,10 @@ class PoseTrack {
 
  private:
   TrackedPose moved(std::int64_t now_us, const std::optional<Pose2>& T_odom_now) const;
+  void doubt_wheels(Matcher& matcher, const PreparedScan& scan, const UncertainPose& predicted,
+                    ReachMatch& reach);
+  bool let_slip(Matcher& matcher, const PreparedScan& scan, const UncertainPose& predicted,
+                const Eigen::Vector3d& way, ReachMatch& reach) const;
   double seconds_to(std::int64_t now_us) const;
   bool by_odometry(const std::optional<Pose2>& T_odom_now) const {
     return T_odom_base_ && T_odom_now;
@@ -62,6 +68,10 @@ class PoseTrack {
   MotionGuess guess_;
   MatchScatter scatter_;
   double in_reach_ = 0.995;
+  // How far the robot has driven since surfaces held its pose along its way (m).
+  double unheld_m_ = 0.0;
+  // Whether the last match says that the wheels slipped.
+  bool slipped_ = false;
 };
 
 }  // namespace voxlist::matching

@@ -93,6 +93,10 @@ void TrackedPose::set_velocity(const Pose2& way, double dt_s) {
 
 void TrackedPose::doubt(double times) { covariance_.topLeftCorner<kBias, kBias>() *= times; }
 
+void TrackedPose::blur(const Eigen::Matrix3d& covariance) {
+  covariance_.topLeftCorner<3, 3>() += covariance;
+}
+
 void TrackedPose::move_to(const UncertainPose& expected) {
   Eigen::Matrix<double, 3, 5> shared = covariance_.topRightCorner<3, 5>();
   shared.row(0) -= (expected.pose.y_m - pose_.y_m) * shared.row(2);

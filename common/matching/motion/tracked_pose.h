@@ -38,6 +38,9 @@ class TrackedPose {
   /// Takes pose and velocity for so many times less sure, as variances.
   void doubt(double times);
 
+  /// The pose (x, y, yaw) may be off by this covariance besides: odometry's bias is not the reason.
+  void blur(const Eigen::Matrix3d& covariance);
+
   /// Goes on in another map. `T_new_old`: from the map so far to that one.
   void change_map(const Pose2& T_new_old);
 
