@@ -23,10 +23,13 @@ PlanBox extent_of(const std::vector<MapSlice>& slices) {
   return extent(all, path);
 }
 
-Raster plan_of(const MapView& view, const MapLayout& layout, int width) {
+Raster plan_of(const MapSlice& slice, const MapLayout& layout, int width) {
+  const MapView& view = slice.view;
   Raster plan(width, layout.bottom(), kUnknown);
   for (const Eigen::Vector2f& centre : view.free)
     fill_square(plan, layout, centre.cast<double>(), view.free_m, kFree);
+  for (const Eigen::Vector2f& centre : slice.blocked)
+    fill_square(plan, layout, centre.cast<double>(), view.free_m, kOccupied);
   // No voxel is thinner than a pixel.
   const double edge_m = std::max(view.resolution_m, 1.5 / layout.pixels_per_m());
   for (const Eigen::Vector3f& centre : view.occupied)
@@ -54,7 +57,7 @@ Picture draw_slices(const std::vector<MapSlice>& slices) {
   int left = 0;
   for (const MapSlice& slice : slices) {
     Picture plan(width, layout.bottom(), kUnknown);
-    plan.paste(plan_of(slice.view, layout, width), 0, 0);
+    plan.paste(plan_of(slice, layout, width), 0, 0);
     draw_path(plan, layout, slice.view.path);
     picture.paste(plan, left, kTitle);
     picture.text({left + kMargin, kTitle}, slice.title, kTextSize, kInk);

@@ -89,6 +89,8 @@ class MapBuilder {
   /// space, whatever is added or moved afterwards.
   void edit(MapEdits edits);
 
+  const MapEdits& edits() const { return edits_; }
+
   /// Begins an empty map, without edits.
   void clear();
 

@@ -32,6 +32,14 @@ TEST(SlicePicture, TellsOccupiedFreeAndUnknown) {
   EXPECT_EQ(pixels.at(770, 150), kUnknown) << "beyond what was seen";
 }
 
+TEST(SlicePicture, ShowsWhatIsKeptBlockedAsOccupied) {
+  MapSlice slice = wall();
+  const std::size_t before = test::pixels_of(draw_slices({slice})).count(kOccupied);
+  slice.blocked = {{2.05F, 3.05F}, {2.15F, 3.05F}};
+  const std::size_t blocked = test::pixels_of(draw_slices({slice})).count(kOccupied) - before;
+  EXPECT_NEAR(static_cast<double>(blocked), 2.0 * 14.2 * 14.2, 60.0);
+}
+
 TEST(SlicePicture, DrawsTwoOfOnePlaceSideBySide) {
   MapSlice gone = wall();
   gone.view.occupied.clear();

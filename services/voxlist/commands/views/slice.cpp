@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -42,11 +43,28 @@ drawing::MapView view_of(const StoredMap& map, const SliceOptions& options) {
   return view;
 }
 
+// Cells that somebody keeps blocked by hand: planners hold them to be occupied.
+std::vector<Eigen::Vector2f> blocked_in(const StoredMap& map, const SliceOptions& options) {
+  const VoxelMap& occupied = map.builder.free_space().occupied;
+  const std::vector<PlacedBox> boxes = map.builder.edits().placed(map.poses);
+  std::vector<Eigen::Vector2f> blocked;
+  occupied.for_each_voxel([&](const Voxel& v) {
+    const Eigen::Vector3d at = center(v, occupied.resolution_m());
+    const auto keeps = [&](const PlacedBox& box) {
+      return box.kind == EditKind::kKeepBlocked && box.contains(at);
+    };
+    if (meets(v, occupied.resolution_m(), options) && std::ranges::any_of(boxes, keeps))
+      blocked.push_back(at.head<2>().cast<float>());
+  });
+  return blocked;
+}
+
 drawing::MapSlice slice_of(const SliceOptions& options, bool carve, Console& console) {
   mapping::MapBuilderConfig config = read_settings(options.config).mapper;
   config.carve = carve;
   config.count_free = true;
-  return {view_of(read_map(options.folder, config, console), options),
+  const StoredMap map = read_map(options.folder, config, console);
+  return {view_of(map, options), blocked_in(map, options),
           fmt::format("height {:g} m, {}", options.height_m,
                       carve ? "without what has gone (carve = true)" : "all that was ever hit")};
 }
