@@ -99,11 +99,11 @@ inline constexpr Channel<map_request_t> kMapRequest{"MAP_REQUEST"};
 inline constexpr Channel<pose_hint_t> kPoseHint{"POSE_HINT"};
 
 /// Asks mapper to edit a box of the map by hand. Frame: map. Rate: when a person does.
-/// From the desk tool and viewers to mapper, which answers on MAP_EDITS.
+/// The desk tool and viewers send it to mapper, which answers on MAP_EDITS.
 inline constexpr Channel<map_edit_t> kMapEdit{"MAP_EDIT"};
 
 /// All boxes of the map that were edited by hand. Frame: map. Rate: on change, and on request.
-/// From mapper to octomap_export, viewers, and whoever asked for an edit.
+/// Mapper sends it to octomap_export, viewers, and whoever asked for an edit.
 inline constexpr Channel<map_edits_t> kMapEdits{"MAP_EDITS"};
 
 /// The map as an OctoMap. Frame: map. Rate: on change, at most 1 Hz.

@@ -33,7 +33,7 @@ map_edit_t to_message(const EditWish& wish);
 
 /// The boxes of a map that were edited by hand.
 struct EditedBoxes {
-  /// Of the newest cloud that the mapper has decided on.
+  /// The time of the newest cloud that the mapper has decided on.
   std::int64_t utime_us = 0;
   std::int64_t map_id = 0;
   /// How often boxes were edited and keyframes were moved so far.

@@ -11,15 +11,16 @@ namespace {
 constexpr double kStep_m = 0.05;
 // Places so near to the pose (m) are the same to the ends of rays.
 constexpr double kSame_m = 0.1;
-// By so many standard deviations a place must explain rays better. Where no wheels slipped it came
-// to 3.6 at most on 1467 scans in corridors (bench_tracking, seeds 201 to 203): rings hit other
-// spots. Where they slipped by half a step and doors were in sight, to 4.0 and more.
+// A place must explain rays better by so many standard deviations. Where no wheels slipped, places
+// did by 3.6 at most on 1467 scans in corridors (bench_tracking, seeds 201 to 203): rings hit other
+// spots. Where wheels slipped by half a step and doors were in sight, it was 4.0 and more.
 constexpr double kNotByChance = 4.0;
-// By so many of them rays that go through things must say so, too. Rings that hit the very spots of
-// an earlier scan explain more of a bare wall, but nothing is gone through there, wherever it is.
+// Rays that go through things must say so, too, by so many of them. Rings that hit the very spots
+// of an earlier scan explain more of a bare wall, but nothing is gone through there, wherever it
+// is.
 constexpr double kShape = 3.0;
 
-// By how many standard deviations more things became better than worse, if either is as likely.
+// How many standard deviations it is from chance that more things became better than worse.
 double sigmas(int better, int worse) { return (better - worse) / std::sqrt(better + worse + 1.0); }
 
 // What becomes of rays from one place to another: so many that spoke against the first do not
@@ -54,7 +55,7 @@ class Line {
     return {pose_.x_m + offset_m * way_.x(), pose_.y_m + offset_m * way_.y(), pose_.yaw_rad};
   }
 
-  // By how many standard deviations a place is better; 0 where it cannot be so by more than chance.
+  // How much better a place is, in standard deviations; 0 where it can be so by chance alone.
   double better_by(double offset_m) const {
     Change change;
     const Pose2 there = at(offset_m);

@@ -24,8 +24,8 @@ struct PlaceOnLine {
 /// The place along a line through a pose where the map explains a scan's rays best, if that is
 /// better than at the pose by more than chance. `evidence`: of the rays at the pose, on surfaces.
 /// `reach`: the line's half in map (m). Surfaces that hold no pose may tell places apart all the
-/// same: rays end where a door stood open, or go through its leaf. About 0.1 ms where few rays
-/// speak against the pose.
+/// same: rays end where a door stood open, or go through its leaf. It looks at no place where few
+/// rays speak against the pose.
 std::optional<PlaceOnLine> better_along(const EvidenceMap& map, const SurfelMap& surfels,
                                         std::span<const ScanRay> rays, const Pose2& pose,
                                         const Evidence& evidence, const Eigen::Vector2d& reach);

@@ -19,7 +19,7 @@ constexpr std::int32_t kOneOf = 3;
 // A search finds what is lifted by less than this (m).
 constexpr double kSameHeight_m = 0.1;
 
-// From cloud to cloud a robot is lifted by no more than this (m) and this share of its way beyond
+// A robot is lifted from cloud to cloud by no more than this (m) and this share of its way beyond
 // what its lean says: bumps, springs, and what a map's heights are off by. A judgement.
 constexpr double kHeave_m = 0.1, kHeaveShare = 0.2;
 // A floor that leans otherwise than the robot did (rad), or is not told, may be where a slope

@@ -50,7 +50,7 @@ class ApartSession {
   };
 
   /// Looks at the newest cloud that is left, if any; what surely fits is returned, and to be added
-  /// to the map before the next. 10 to 30 ms.
+  /// to the map before the next. It takes as long as localising a cloud does.
   std::optional<Placed> place_next();
 
   /// The map of found() has gained or lost something.
