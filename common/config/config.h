@@ -11,7 +11,7 @@ namespace voxlist::config {
 
 /// One table of a settings file, tied to the struct that holds it.
 struct Section {
-  std::string name;
+  std::string name;  ///< empty: what stands in no table
   std::function<void(SettingsVisitor&)> visit;
   /// The table has a reader that knows more of its keys: unknown ones are left to it.
   bool shared = false;
@@ -31,8 +31,16 @@ Section shared_section(std::string name, Settings& settings) {
   return result;
 }
 
+/// Lists of tables that stand in no table, `[[key]]`, for a struct whose members are such lists.
+/// Several programs may read them.
+template <class Settings>
+Section root_section(Settings& settings) {
+  return section("", settings);
+}
+
 /// Reads a TOML file into the sections' structs; keys that the file leaves out keep their values.
-/// `other_tables` are tables that belong to other programs: allowed, and not looked into.
+/// `other_tables` are tables, or lists of them, that belong to other programs: allowed, and not
+/// looked into.
 /// Returns all complaints at once, each "FILE:LINE: what is wrong and what is allowed": unknown and
 /// duplicate keys, unknown tables, wrong types, values out of range. Text that is no TOML at all
 /// ends the reading at that line. Empty: all is well. With complaints, use none of the structs.

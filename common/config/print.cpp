@@ -94,7 +94,7 @@ class TomlPrinter : public TextVisitor {
         fmt::format("# {}{}\n{} = {}\n", doc, range.empty() ? "" : " (" + range + ")", key, value);
   }
   void tables(const char* key, const StructList& list, const char* doc) override {
-    const std::string name = fmt::format("{}.{}", name_, key);
+    const std::string name = name_.empty() ? key : fmt::format("{}.{}", name_, key);
     for (std::size_t i = 0; i < list.size; ++i) {
       TomlPrinter printer(name);
       list.visit(i, printer);
@@ -140,7 +140,10 @@ std::string to_toml(const std::vector<Section>& sections) {
   for (const Section& section : sections) {
     TomlPrinter printer(section.name);
     section.visit(printer);
-    text += fmt::format("{}[{}]\n{}", text.empty() ? "" : "\n", section.name, printer.text);
+    if (section.name.empty())
+      text += printer.text;
+    else
+      text += fmt::format("{}[{}]\n{}", text.empty() ? "" : "\n", section.name, printer.text);
   }
   return text;
 }

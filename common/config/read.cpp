@@ -66,6 +66,11 @@ std::string one_of(std::span<const char* const> names) {
   return text;
 }
 
+// A key with its table, which is none at the root of a file.
+std::string full_name(const std::string& table, std::string_view key) {
+  return table.empty() ? std::string(key) : fmt::format("{}.{}", table, key);
+}
+
 // Takes the keys of one struct from one table.
 class Reader : public SettingsVisitor {
  public:
@@ -105,7 +110,7 @@ class Reader : public SettingsVisitor {
     if (!node) return;
     const toml::array* array = node->as_array();
     if (!array || !(array->empty() || array->is_homogeneous(toml::node_type::table))) {
-      complain(*node, key, fmt::format("must be tables: [[{}.{}]]", name_, key));
+      complain(*node, key, fmt::format("must be tables: [[{}]]", full_name(name_, key)));
       return;
     }
     list.resize(array->size());
@@ -116,6 +121,9 @@ class Reader : public SettingsVisitor {
   /// What is wrong with the keys that members asked for.
   const std::vector<std::string>& complaints() const { return complaints_; }
 
+  /// The keys that members asked for.
+  const std::set<std::string>& keys() const { return keys_; }
+
   /// A complaint for each key that no member asked for.
   std::vector<std::string> unknown_keys() const {
     std::vector<std::string> all;
@@ -124,7 +132,7 @@ class Reader : public SettingsVisitor {
       if (keys_.contains(text)) continue;
       all.push_back(
           complaint(file_, key.source().begin.line,
-                    fmt::format("no key {}.{}; known are {}", name_, text, listed(keys_))));
+                    fmt::format("no key {}; known are {}", full_name(name_, text), listed(keys_))));
     }
     return all;
   }
@@ -160,7 +168,7 @@ class Reader : public SettingsVisitor {
   // One of a list of tables; no other program knows more of its keys.
   void read_table(const char* key, const toml::table& table,
                   const std::function<void(Reader&)>& visit) {
-    const std::string name = fmt::format("{}.{}", name_, key);
+    const std::string name = full_name(name_, key);
     Reader reader(file_, name, table);
     visit(reader);
     for (const auto& wrong : {reader.complaints_, reader.unknown_keys()})
@@ -180,8 +188,8 @@ class Reader : public SettingsVisitor {
   }
 
   const toml::node* complain(const toml::node& node, const char* key, const std::string& what) {
-    complaints_.push_back(
-        complaint(file_, node.source().begin.line, fmt::format("{}.{} {}", name_, key, what)));
+    complaints_.push_back(complaint(file_, node.source().begin.line,
+                                    fmt::format("{} {}", full_name(name_, key), what)));
     return nullptr;
   }
 
@@ -192,18 +200,32 @@ class Reader : public SettingsVisitor {
   std::vector<std::string> complaints_;
 };
 
+// What may stand at the root of a file.
+struct Root {
+  std::set<std::string> own;    // tables that are read
+  std::set<std::string> lists;  // lists of tables that are read, and looked at where they are
+  std::set<std::string> other;  // tables of other programs, or lists of them
+};
+
+std::string what_is_wrong(const std::string& name, const toml::node& node, const Root& known) {
+  if (known.lists.contains(name)) return {};
+  const bool is_own = known.own.contains(name);
+  if (!is_own && !known.other.contains(name)) {
+    std::set<std::string> all = known.own;
+    all.insert(known.lists.begin(), known.lists.end());
+    all.insert(known.other.begin(), known.other.end());
+    return fmt::format("no table [{}]; known are {}", name, listed(all));
+  }
+  if (node.is_table() || (!is_own && node.is_array_of_tables())) return {};
+  return fmt::format("{0} must be a table: [{0}]", name);
+}
+
 std::vector<std::string> check_tables(const std::filesystem::path& file, const toml::table& root,
-                                      const std::set<std::string>& known) {
+                                      const Root& known) {
   std::vector<std::string> complaints;
   for (const auto& [key, node] : root) {
-    const std::string name(key.str());
-    const auto line = key.source().begin.line;
-    if (!known.contains(name)) {
-      complaints.push_back(
-          complaint(file, line, fmt::format("no table [{}]; known are {}", name, listed(known))));
-    } else if (!node.is_table()) {
-      complaints.push_back(complaint(file, line, fmt::format("{0} must be a table: [{0}]", name)));
-    }
+    const std::string wrong = what_is_wrong(std::string(key.str()), node, known);
+    if (!wrong.empty()) complaints.push_back(complaint(file, key.source().begin.line, wrong));
   }
   return complaints;
 }
@@ -214,14 +236,19 @@ std::vector<std::string> read_config(const std::filesystem::path& file,
                                      const std::vector<Section>& sections,
                                      const std::vector<std::string>& other_tables) {
   auto [root, complaints] = parse_toml(file);
-  std::set<std::string> known(other_tables.begin(), other_tables.end());
+  Root known{{}, {}, {other_tables.begin(), other_tables.end()}};
   const toml::table nothing;
   for (const Section& section : sections) {
-    known.insert(section.name);
-    const toml::table* table = root[section.name].as_table();
+    const bool is_root = section.name.empty();
+    const toml::table* table = is_root ? &root : root[section.name].as_table();
     Reader reader(file, section.name, table ? *table : nothing);
     section.visit(reader);
     std::ranges::copy(reader.complaints(), std::back_inserter(complaints));
+    if (is_root) {
+      known.lists.insert(reader.keys().begin(), reader.keys().end());
+      continue;
+    }
+    known.own.insert(section.name);
     if (!section.shared) std::ranges::copy(reader.unknown_keys(), std::back_inserter(complaints));
   }
   std::ranges::copy(check_tables(file, root, known), std::back_inserter(complaints));

@@ -37,8 +37,8 @@ std::vector<std::string> complaints_of(const ServiceInfo& info, const std::strin
 }  // namespace
 
 std::optional<int> read_command_line(int argc, char** argv, const ServiceInfo& info,
-                                     const config::Section& settings, const CheckSettings& check,
-                                     bus::BusOptions& bus) {
+                                     const std::vector<config::Section>& settings,
+                                     const CheckSettings& check, bus::BusOptions& bus) {
   CLI::App app(info.purpose, info.name);
   std::string file;
   std::string url;
@@ -63,7 +63,8 @@ std::optional<int> read_command_line(int argc, char** argv, const ServiceInfo& i
     return 1;
   }
 
-  const std::vector<config::Section> sections = {bus_section(bus), settings};
+  std::vector<config::Section> sections = {bus_section(bus)};
+  sections.insert(sections.end(), settings.begin(), settings.end());
   if (!file.empty()) {
     const auto complaints = config::read_config(file, sections, config::kTables);
     for (const std::string& complaint : complaints)

@@ -19,7 +19,7 @@ config::Section bus_section(bus::BusOptions& options);
 /// nothing to run: 0 after --help, --version, --print-config and --check-config, 1 after complaints
 /// (on stderr, one a line).
 std::optional<int> read_command_line(int argc, char** argv, const ServiceInfo& info,
-                                     const config::Section& settings, const CheckSettings& check,
-                                     bus::BusOptions& bus);
+                                     const std::vector<config::Section>& settings,
+                                     const CheckSettings& check, bus::BusOptions& bus);
 
 }  // namespace voxlist::service

@@ -114,7 +114,7 @@ FileLock take_lock(const ServiceInfo& info, const bus::BusOptions& options) {
 
 }  // namespace
 
-int run_service(int argc, char** argv, const ServiceInfo& info, const config::Section& settings,
+int run_service(int argc, char** argv, const ServiceInfo& info, const std::vector<config::Section>& settings,
                 const CheckSettings& check, const MakeService& make) try {
   bus::BusOptions options;
   const auto exit_code = read_command_line(argc, argv, info, settings, check, options);

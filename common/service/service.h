@@ -5,6 +5,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "voxlist/config/config.h"
 
@@ -49,8 +50,9 @@ using CheckSettings = std::function<std::string()>;
 /// the service, and runs it until SIGTERM or SIGINT, or until a recording that is its bus has
 /// ended. HEALTH goes out once a second. Returns the exit code: 0 after a wanted end, 1 with one
 /// line on stderr when it cannot start or the service throws.
-int run_service(int argc, char** argv, const ServiceInfo& info, const config::Section& settings,
-                const CheckSettings& check, const MakeService& make);
+int run_service(int argc, char** argv, const ServiceInfo& info,
+                const std::vector<config::Section>& settings, const CheckSettings& check,
+                const MakeService& make);
 
 /// What Service::check(config) throws as std::invalid_argument; empty when it throws nothing, or
 /// there is no such member.
@@ -60,6 +62,15 @@ std::string why_invalid_for([[maybe_unused]] const Config& config) try {
   return {};
 } catch (const std::invalid_argument& error) {
   return error.what();
+}
+
+/// The service's table, and the lists in no table that a member visit_root names, if there is one.
+template <class Config>
+std::vector<config::Section> sections_of(const std::string& name, Config& config) {
+  std::vector<config::Section> sections = {config::section(name, config)};
+  if constexpr (requires(config::SettingsVisitor & v) { config.visit_root(v); })
+    sections.push_back({"", [&config](config::SettingsVisitor& v) { config.visit_root(v); }});
+  return sections;
 }
 
 /// The main of a service: Service is made as Service(Bus&, Health&, const Config&) and may have
@@ -85,7 +96,7 @@ int run_service(int argc, char** argv, const ServiceInfo& info) {
   };
   Config config;
   return run_service(
-      argc, argv, info, config::section(info.name, config),
+      argc, argv, info, sections_of(info.name, config),
       [&] { return why_invalid_for<Service>(config); },
       [&](bus::Bus& bus, bus::Health& health) {
         return std::make_unique<Adapter>(bus, health, config);

@@ -239,5 +239,44 @@ TEST_F(ReadTables, ReadsBackWhatIsPrinted) {
   EXPECT_TRUE(robot_.sensors.empty());
 }
 
+class ReadRoot : public ReadConfig {
+ protected:
+  std::vector<std::string> read(const std::string& text) {
+    std::ofstream(file()) << text;
+    return read_config(file(), {section("sample", sample_), root_section(robot_)}, {"other"});
+  }
+  struct Lists {
+    std::vector<Sensor> sensors;
+    template <class Visitor>
+    void visit(Visitor& v) {
+      v("sensor", sensors, "one for each");
+    }
+  } robot_;
+};
+
+TEST_F(ReadRoot, MakesAnElementOfEachTableOfAList) {
+  EXPECT_THAT(read("[[sensor]]\nchannel = 'LEFT'\n[sample]\nscans = 7\n[[sensor]]\n"), IsEmpty());
+  ASSERT_EQ(robot_.sensors.size(), 2u);
+  EXPECT_EQ(robot_.sensors[0].channel, "LEFT");
+  EXPECT_EQ(sample_.scans, 7);
+}
+
+TEST_F(ReadRoot, ComplainsAboutWhatIsWrong) {
+  EXPECT_THAT(read("[[sensor]]\nheight_m = 5\n[[sample]]\n[[other]]\n"),
+              UnorderedElementsAre(HasSubstr(":2: sensor.height_m is 5, must be 0 to 3"),
+                                   HasSubstr(":3: sample must be a table: [sample]")));
+  EXPECT_THAT(read("sensor = 3\n"), ElementsAre(HasSubstr("sensor must be tables: [[sensor]]")));
+  EXPECT_THAT(read("[lost]\n"), ElementsAre(HasSubstr("known are other, sample, sensor")));
+}
+
+TEST_F(ReadRoot, ReadsBackWhatIsPrinted) {
+  robot_.sensors = {{"LEFT", 0.1}, {"RIGHT", 0.2}};
+  const std::string printed = to_toml({section("sample", sample_), root_section(robot_)});
+  robot_ = {};
+  EXPECT_THAT(read(printed), IsEmpty());
+  EXPECT_EQ(robot_.sensors.size(), 2u);
+  EXPECT_EQ(to_toml({section("sample", sample_), root_section(robot_)}), printed);
+}
+
 }  // namespace
 }  // namespace voxlist::config

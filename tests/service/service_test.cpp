@@ -24,11 +24,24 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::StartsWith;
 
+struct Peer {
+  std::string name;
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v("name", name, "what it is called");
+  }
+};
+
 struct CounterConfig {
   int ticks = 3;
+  std::vector<Peer> peers;
   template <class Visitor>
   void visit(Visitor& v) {
     v("ticks", ticks, "ticks until it asks for its own end", 1, 100);
+  }
+  template <class Visitor>
+  void visit_root(Visitor& v) {
+    v("robot", peers, "one that counts, too");
   }
 };
 
@@ -159,6 +172,12 @@ TEST_F(RunService, PrintsTheSettingsInForce) {
   EXPECT_THAT(out_, HasSubstr("prefix = \"r2/\"\n"));
   EXPECT_THAT(out_,
               HasSubstr("[mapper]\n# ticks until it asks for its own end (1 to 100)\nticks = 5\n"));
+}
+
+TEST_F(RunService, TakesListsThatStandInNoTable) {
+  const auto file = write_config("[[robot]]\nname = 'low'\n[mapper]\nticks = 5\n");
+  EXPECT_EQ(run<CounterService>({"--config", file, "--print-config"}), 0);
+  EXPECT_THAT(out_, HasSubstr("[[robot]]\n# what it is called\nname = \"low\"\n"));
 }
 
 TEST_F(RunService, TakesTheUrlFromTheCommandLineBeforeTheEnvironmentBeforeTheFile) {

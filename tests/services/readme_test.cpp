@@ -96,7 +96,7 @@ TEST(ServiceReadme, OfAllServicesKeepsTheOrderOfTheSettingsTables) {
   const std::string map = read(kServices / "README.md");
   std::size_t last = 0;
   for (const std::string& table : config::kTables) {
-    if (table == "bus") continue;
+    if (table == "bus" || table == "robot") continue;  // of no service alone
     const std::size_t row = map.find("| [" + table + "]");
     ASSERT_NE(row, std::string::npos) << table;
     EXPECT_GT(row, last) << table;
