@@ -11,11 +11,13 @@ class map_request_t;
 class map_update_t;
 class mirror_state_t;
 class obstacles_t;
+class pixel_map_t;
 class planar_lidar_t;
 class pointcloud_t;
 class pose_hint_t;
 class pose_t;
 class rigid_transform_t;
+class traversability_t;
 class uncertain_pose_t;
 }  // namespace voxlist
 

@@ -9,11 +9,13 @@
 #include <voxlist/map_update_t.hpp>
 #include <voxlist/mirror_state_t.hpp>
 #include <voxlist/obstacles_t.hpp>
+#include <voxlist/pixel_map_t.hpp>
 #include <voxlist/planar_lidar_t.hpp>
 #include <voxlist/pointcloud_t.hpp>
 #include <voxlist/pose_hint_t.hpp>
 #include <voxlist/pose_t.hpp>
 #include <voxlist/rigid_transform_t.hpp>
+#include <voxlist/traversability_t.hpp>
 #include <voxlist/uncertain_pose_t.hpp>
 
 #include "voxlist/bus/wire.h"
@@ -113,11 +115,19 @@ Fault check_lengths(const mirror_state_t& message) {
 }
 
 Fault check_lengths(const obstacles_t& message) {
-  return Lengths()
-      .array(message.n_bearings, message.ranges_m, 4)
+  Lengths lengths;
+  lengths.text(message.blind)
+      .array(message.n_bearings, message.ground_seen_to_m, 4)
       .rows(message.n_cells, message.cells, 2)
       .array(message.n_cells, message.types, 4)
-      .fault();
+      .array(message.n_moving, message.moving, 20);
+  lengths.array(3, message.nearest_m, 0);
+  for (const auto& nearest_m : message.nearest_m) lengths.array(message.n_bearings, nearest_m, 4);
+  return lengths.fault();
+}
+
+Fault check_lengths(const pixel_map_t& message) {
+  return Lengths().array(message.datasize, message.mapData, 1).fault();
 }
 
 Fault check_lengths(const planar_lidar_t& message) {
@@ -143,6 +153,10 @@ Fault check_lengths(const pose_hint_t&) { return Fault::kNone; }
 Fault check_lengths(const pose_t&) { return Fault::kNone; }
 
 Fault check_lengths(const rigid_transform_t&) { return Fault::kNone; }
+
+Fault check_lengths(const traversability_t& message) {
+  return Lengths().text(message.profile).array(message.datasize, message.cells, 1).fault();
+}
 
 Fault check_lengths(const uncertain_pose_t&) { return Fault::kNone; }
 

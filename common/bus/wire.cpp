@@ -14,6 +14,8 @@ constexpr std::int64_t kPoint = 3 * kFloat;
 constexpr std::int64_t kPoseMode = (3 + 9 + 3 + 2) * kDouble;
 constexpr std::int64_t kVoxelBlock = 3 * kInt32 + 8 * kInt64;
 constexpr std::int64_t kEditedBox = kInt64 + kInt32 + 9 * kDouble;
+constexpr std::int64_t kBearing = (3 + 1) * kFloat;
+constexpr std::int64_t kMovingObstacle = 5 * kFloat;
 constexpr std::int64_t kEmptyText = kInt32 + 1;
 
 }  // namespace
@@ -158,11 +160,19 @@ void walk(WireReader& in, const mirror_state_t*) {
 }
 
 void walk(WireReader& in, const obstacles_t*) {
-  in.skip(kInt64 + 2 * kFloat);
-  const std::int64_t n_bearings = in.count(kFloat);
-  in.skip(2 * kFloat + n_bearings * kFloat);
+  in.skip(kInt64);
+  in.text();
+  in.skip(2 * kFloat);
+  const std::int64_t n_bearings = in.count(kBearing);
+  in.skip(2 * kFloat + n_bearings * kBearing);
   const std::int64_t n_cells = in.count(2 * kFloat + kInt32);
   in.skip(n_cells * (2 * kFloat + kInt32));
+  in.array(kMovingObstacle);
+}
+
+void walk(WireReader& in, const pixel_map_t*) {
+  in.skip(kInt64 + 2 * kInt32 + 5 * kDouble + 2 * kInt8);
+  in.array(kInt8);
 }
 
 void walk(WireReader& in, const planar_lidar_t*) {
@@ -186,6 +196,13 @@ void walk(WireReader& in, const pose_hint_t*) { in.skip(2 * kInt64 + 5 * kDouble
 void walk(WireReader& in, const pose_t*) { in.skip(kInt64 + 16 * kDouble); }
 
 void walk(WireReader& in, const rigid_transform_t*) { in.skip(kInt64 + 7 * kDouble); }
+
+void walk(WireReader& in, const traversability_t*) {
+  in.skip(3 * kInt64);
+  in.text();
+  in.skip(3 * kDouble + 2 * kInt32 + kInt8);
+  in.array(kInt8);
+}
 
 void walk(WireReader& in, const uncertain_pose_t*) { in.skip(4 * kInt64 + 12 * kDouble); }
 

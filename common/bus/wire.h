@@ -94,11 +94,13 @@ void walk(WireReader& in, const map_request_t*);
 void walk(WireReader& in, const map_update_t*);
 void walk(WireReader& in, const mirror_state_t*);
 void walk(WireReader& in, const obstacles_t*);
+void walk(WireReader& in, const pixel_map_t*);
 void walk(WireReader& in, const planar_lidar_t*);
 void walk(WireReader& in, const pointcloud_t*);
 void walk(WireReader& in, const pose_hint_t*);
 void walk(WireReader& in, const pose_t*);
 void walk(WireReader& in, const rigid_transform_t*);
+void walk(WireReader& in, const traversability_t*);
 void walk(WireReader& in, const uncertain_pose_t*);
 
 /// One for each type: what is wrong with a message that is about to be encoded. lcm's encoder
@@ -113,11 +115,13 @@ Fault check_lengths(const map_request_t& message);
 Fault check_lengths(const map_update_t& message);
 Fault check_lengths(const mirror_state_t& message);
 Fault check_lengths(const obstacles_t& message);
+Fault check_lengths(const pixel_map_t& message);
 Fault check_lengths(const planar_lidar_t& message);
 Fault check_lengths(const pointcloud_t& message);
 Fault check_lengths(const pose_hint_t& message);
 Fault check_lengths(const pose_t& message);
 Fault check_lengths(const rigid_transform_t& message);
+Fault check_lengths(const traversability_t& message);
 Fault check_lengths(const uncertain_pose_t& message);
 
 /// Whether the bytes are exactly one message of type M. Allocates nothing, so it is safe on any

@@ -1,5 +1,6 @@
 #include "services/obstacle_detector/obstacle_detector_service.h"
 
+#include <limits>
 #include <stdexcept>
 #include <voxlist/obstacles_t.hpp>
 #include <voxlist/pointcloud_t.hpp>
@@ -27,7 +28,10 @@ obstacles_t to_message(const planning::ObstacleScan& scan, const planning::Obsta
   message.n_bearings = static_cast<std::int32_t>(scan.ranges_m.size());
   message.rad0 = 0.0F;
   message.radstep = static_cast<float>(scan.step_rad);
-  message.ranges_m = scan.ranges_m;
+  const std::vector<float> none(scan.ranges_m.size(), std::numeric_limits<float>::infinity());
+  message.nearest_m.assign(3, none);
+  message.nearest_m[obstacles_t::OBSTACLE] = scan.ranges_m;
+  message.ground_seen_to_m.assign(scan.ranges_m.size(), 0.0F);
   message.n_cells = static_cast<std::int32_t>(scan.cells_m.size());
   for (const Eigen::Vector2f& cell : scan.cells_m) message.cells.push_back({cell.x(), cell.y()});
   message.types.assign(scan.cells_m.size(), obstacles_t::OBSTACLE);

@@ -17,11 +17,13 @@
 #include <voxlist/map_update_t.hpp>
 #include <voxlist/mirror_state_t.hpp>
 #include <voxlist/obstacles_t.hpp>
+#include <voxlist/pixel_map_t.hpp>
 #include <voxlist/planar_lidar_t.hpp>
 #include <voxlist/pointcloud_t.hpp>
 #include <voxlist/pose_hint_t.hpp>
 #include <voxlist/pose_t.hpp>
 #include <voxlist/rigid_transform_t.hpp>
+#include <voxlist/traversability_t.hpp>
 #include <voxlist/uncertain_pose_t.hpp>
 
 namespace voxlist::bus {
@@ -84,6 +86,7 @@ class Filler {
 
   void fill(counter_t& m) { fill_all(m.name, m.count); }
   void fill(gauge_t& m) { fill_all(m.name, m.value); }
+  void fill(moving_obstacle_t& m) { fill_all(m.position, m.velocity, m.radius_m); }
   void fill(pose_mode_t& m) { fill_all(m.pose, m.covariance, m.tilt, m.overlap, m.probability); }
   void fill(voxel_block_t& m) { fill_all(m.x, m.y, m.z, m.bits); }
   void fill(map_request_t& m) { fill_all(m.utime, m.want, m.first, m.map_id, m.version); }
@@ -134,10 +137,23 @@ class Filler {
   }
 
   void fill(obstacles_t& m) {
-    fill_all(m.utime, m.min_height_m, m.max_height_m, m.rad0, m.radstep);
-    list(m.n_bearings, m.ranges_m);
+    fill_all(m.utime, m.blind, m.min_height_m, m.max_height_m, m.rad0, m.radstep);
+    list(m.n_bearings, m.ground_seen_to_m);
+    rows(3, m.ground_seen_to_m.size(), m.nearest_m);
+    list(m.n_moving, m.moving);
     list(m.n_cells, m.types);
     rows(static_cast<std::size_t>(m.n_cells), 2, m.cells);
+  }
+
+  void fill(pixel_map_t& m) {
+    fill_all(m.utime, m.dimensions, m.xy0, m.xy1, m.mpp, m.compressed, m.data_type);
+    list(m.datasize, m.mapData);
+  }
+
+  void fill(traversability_t& m) {
+    fill_all(m.utime, m.map_id, m.version, m.profile, m.resolution_m, m.xy0, m.dimensions,
+             m.compressed);
+    list(m.datasize, m.cells);
   }
 
   void fill(mirror_state_t& m) {

@@ -26,13 +26,18 @@ Kind kind(Channel<M> channel) {
           }};
 }
 
+// Of one robot's profile.
+constexpr Channel<pixel_map_t> kGrid{"GRID_low"};
+constexpr Channel<traversability_t> kTraversability{"TRAVERSABILITY_low"};
+
 const std::vector<Kind>& kinds() {
   static const std::vector<Kind> all = {
       kind(kCloud),     kind(kCloudSlice),     kind(kOdometry), kind(kPose),
       kind(kTruth),     kind(kPoseCovariance), kind(kMapOdom),  kind(kLocalisation),
       kind(kMapUpdate), kind(kFreeSpace),      kind(kKeyframe), kind(kMapRequest),
       kind(kMapEdit),   kind(kMapEdits),       kind(kPoseHint), kind(kOctomap),
-      kind(kObstacles), kind(kLaser),          kind(kMirror),   kind(kHealth)};
+      kind(kObstacles), kind(kLaser),          kind(kMirror),   kind(kHealth),
+      kind(kGrid),      kind(kTraversability)};
   return all;
 }
 

@@ -12,11 +12,13 @@
 #include <voxlist/map_update_t.hpp>
 #include <voxlist/mirror_state_t.hpp>
 #include <voxlist/obstacles_t.hpp>
+#include <voxlist/pixel_map_t.hpp>
 #include <voxlist/planar_lidar_t.hpp>
 #include <voxlist/pointcloud_t.hpp>
 #include <voxlist/pose_hint_t.hpp>
 #include <voxlist/pose_t.hpp>
 #include <voxlist/rigid_transform_t.hpp>
+#include <voxlist/traversability_t.hpp>
 #include <voxlist/uncertain_pose_t.hpp>
 
 #include "tests/bus/forge.h"
@@ -58,6 +60,9 @@ class Victim {
     listen(kMapEdits, Delivery::kEvery, [](const map_edits_t& m) { from_message(m); });
     listen(kOctomap, Delivery::kEvery, [](const map_octree_t&) {});
     listen(kObstacles, Delivery::kLatest, [](const obstacles_t&) {});
+    listen(Channel<pixel_map_t>{"GRID_low"}, Delivery::kEvery, [](const pixel_map_t&) {});
+    listen(Channel<traversability_t>{"TRAVERSABILITY_low"}, Delivery::kEvery,
+           [](const traversability_t&) {});
     // A handler that fails counts too.
     listen(kHealth, Delivery::kEvery, [](const health_t& m) {
       if (m.n_counters == 3) throw std::runtime_error("three");

@@ -5,6 +5,7 @@
 #include <voxlist/health_t.hpp>
 #include <voxlist/map_octree_t.hpp>
 #include <voxlist/map_update_t.hpp>
+#include <voxlist/pixel_map_t.hpp>
 #include <voxlist/planar_lidar_t.hpp>
 #include <voxlist/pointcloud_t.hpp>
 #include <voxlist/pose_t.hpp>
@@ -52,6 +53,7 @@ TEST(Types, HaveTheFingerprintsThatOtherModulesKnow) {
   EXPECT_EQ(static_cast<std::uint64_t>(rigid_transform_t::getHash()), 0xea9ffbf2acc5c5aeU);
   EXPECT_EQ(static_cast<std::uint64_t>(pointcloud_t::getHash()), 0x0d89dc76eb295069U);
   EXPECT_EQ(static_cast<std::uint64_t>(map_octree_t::getHash()), 0xb825cf83ab9af40cU);
+  EXPECT_EQ(static_cast<std::uint64_t>(pixel_map_t::getHash()), 0xe4b099a4cce13107U);
 }
 
 TEST(Types, StartWithTheirFingerprintOnTheWire) {

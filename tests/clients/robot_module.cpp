@@ -31,9 +31,10 @@ struct RobotModule {
 
   void on_obstacles(const lcm::ReceiveBuffer*, const std::string&, const voxlist::obstacles_t* o) {
     ++obstacles;
-    const auto nearest = std::min_element(o->ranges_m.begin(), o->ranges_m.end());
-    if (nearest == o->ranges_m.end()) return;
-    const auto sector = static_cast<double>(nearest - o->ranges_m.begin());
+    const std::vector<float>& ranges = o->nearest_m[voxlist::obstacles_t::OBSTACLE];
+    const auto nearest = std::min_element(ranges.begin(), ranges.end());
+    if (nearest == ranges.end()) return;
+    const auto sector = static_cast<double>(nearest - ranges.begin());
     std::printf("nearest obstacle: %.2f m at %.2f rad\n", *nearest, o->rad0 + sector * o->radstep);
   }
 

@@ -46,8 +46,9 @@ class RobotModule:
         self.obstacles += 1
         if obstacles.n_bearings == 0:
             return
-        nearest = min(obstacles.ranges_m)
-        bearing = obstacles.rad0 + obstacles.ranges_m.index(nearest) * obstacles.radstep
+        ranges = obstacles.nearest_m[obstacles_t.OBSTACLE]
+        nearest = min(ranges)
+        bearing = obstacles.rad0 + ranges.index(nearest) * obstacles.radstep
         print(f"nearest obstacle: {nearest:.2f} m at {bearing:.2f} rad")
 
 

@@ -85,9 +85,12 @@ TEST(ObstacleDetector, PublishesTheNearestWallOfTheSimulatedRoom) {
   const Pose2 T_map_base = to_pose2(bus::from_message(*truth)->pose);
   for (const std::size_t sector : {30u, 150u, 180u, 210u, 330u}) {
     const double bearing_rad = message.rad0 + static_cast<float>(sector) * message.radstep;
-    EXPECT_NEAR(message.ranges_m[sector], free_m(building, T_map_base, bearing_rad), 0.1) << sector;
+    EXPECT_NEAR(message.nearest_m[obstacles_t::OBSTACLE][sector],
+                free_m(building, T_map_base, bearing_rad), 0.1)
+        << sector;
   }
-  EXPECT_EQ(message.ranges_m[90], INFINITY) << "the scanner does not see to the side";
+  EXPECT_EQ(message.nearest_m[obstacles_t::OBSTACLE][90], INFINITY)
+      << "the scanner does not see to the side";
   EXPECT_GT(message.n_cells, 20);
   EXPECT_THAT(message.types, testing::Each(static_cast<int>(obstacles_t::OBSTACLE)));
 }
@@ -102,7 +105,7 @@ TEST(ObstacleDetector, SaysWhichHeightsItLookedAt) {
   ASSERT_EQ(heard.obstacles.size(), 1u);
   EXPECT_FLOAT_EQ(heard.obstacles[0].min_height_m, 0.25F);
   EXPECT_FLOAT_EQ(heard.obstacles[0].max_height_m, 1.75F);
-  EXPECT_FLOAT_EQ(heard.obstacles[0].ranges_m[0], 2.0F);
+  EXPECT_FLOAT_EQ(heard.obstacles[0].nearest_m[obstacles_t::OBSTACLE][0], 2.0F);
 }
 
 TEST(ObstacleDetector, LooksOnlyAtTheNewestOfTheCloudsThatWait) {
@@ -112,7 +115,7 @@ TEST(ObstacleDetector, LooksOnlyAtTheNewestOfTheCloudsThatWait) {
   heard.handle();
   ASSERT_EQ(heard.obstacles.size(), 1u);
   EXPECT_EQ(heard.obstacles[0].utime, 3);
-  EXPECT_FLOAT_EQ(heard.obstacles[0].ranges_m[0], 3.0F);
+  EXPECT_FLOAT_EQ(heard.obstacles[0].nearest_m[obstacles_t::OBSTACLE][0], 3.0F);
 }
 
 TEST(ObstacleDetector, CountsWhatItRefusesAndGoesOn) {
@@ -127,7 +130,7 @@ TEST(ObstacleDetector, CountsWhatItRefusesAndGoesOn) {
   heard.bus.publish(bus::kCloud, one_bad_point);
   heard.handle();
   ASSERT_EQ(heard.obstacles.size(), 1u);
-  EXPECT_FLOAT_EQ(heard.obstacles[0].ranges_m[0], 2.0F);
+  EXPECT_FLOAT_EQ(heard.obstacles[0].nearest_m[obstacles_t::OBSTACLE][0], 2.0F);
 }
 
 TEST(ObstacleDetector, TellsHowLongACloudTook) {

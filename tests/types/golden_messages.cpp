@@ -40,8 +40,9 @@ void write_types() {
 int main() {
   using namespace voxlist;
   write_types<counter_t, edited_box_t, gauge_t, health_t, keyframe_t, localisation_t, map_edit_t,
-              map_edits_t, map_octree_t, map_request_t, map_update_t, mirror_state_t, obstacles_t,
-              planar_lidar_t, pointcloud_t, pose_mode_t, pose_hint_t, pose_t, rigid_transform_t,
+              map_edits_t, map_octree_t, map_request_t, map_update_t, mirror_state_t,
+              moving_obstacle_t, obstacles_t, pixel_map_t, planar_lidar_t, pointcloud_t,
+              pose_mode_t, pose_hint_t, pose_t, rigid_transform_t, traversability_t,
               uncertain_pose_t, voxel_block_t>();
   counter_t umlaut{};
   umlaut.name = "Zähler";

@@ -39,7 +39,7 @@ def reserved(text):
 
 class Names(unittest.TestCase):
     def test_no_type_has_a_reserved_name(self):
-        files = sorted(FOLDER.glob("*.lcm"))
+        files = sorted(FOLDER.glob("*/*.lcm"))
         self.assertTrue(files)
         for file in files:
             with self.subTest(file.name):

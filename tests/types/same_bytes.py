@@ -7,7 +7,7 @@ import sys
 import voxlist
 
 folder = pathlib.Path(sys.argv[1])
-in_files = {file.stem.removeprefix("voxlist_") for file in folder.glob("*.lcm")}
+in_files = {file.stem.removeprefix("voxlist_") for file in folder.glob("*/*.lcm")}
 in_package = {name for name, value in vars(voxlist).items() if inspect.isclass(value)}
 assert in_package == in_files, f"types of the package and of {folder}: {in_package ^ in_files}"
 for name in in_files:

@@ -61,7 +61,9 @@ void RobotView::take(const keyframe_t& message, double) { keyframes_ = message.i
 
 void RobotView::take(const obstacles_t& message, double now_s) {
   nearest_m_ = std::numeric_limits<float>::infinity();
-  for (const float range : message.ranges_m) nearest_m_ = std::min(nearest_m_, range);
+  for (const auto& nearest_m : message.nearest_m) {
+    for (const float range : nearest_m) nearest_m_ = std::min(nearest_m_, range);
+  }
   nearest_seen_s_ = now_s;
 }
 

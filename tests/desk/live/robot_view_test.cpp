@@ -45,7 +45,7 @@ TEST(RobotView, ShowsPoseMapAndObstacle) {
   keyframe.index = 6;
   robot.take(keyframe, 0.0);
   obstacles_t obstacles{};
-  obstacles.ranges_m = {3.0F, 1.5F};
+  obstacles.nearest_m = {{3.0F, 1.5F}, {}, {}};
   robot.take(obstacles, 0.0);
   ASSERT_THAT(robot.lines(1.0), SizeIs(1));
   EXPECT_EQ(
@@ -67,7 +67,7 @@ TEST(RobotView, SaysHowOldItIsInsteadOfTrackingForEver) {
 TEST(RobotView, ForgetsAnObstacleThatIsOld) {
   RobotView robot;
   obstacles_t obstacles{};
-  obstacles.ranges_m = {1.5F};
+  obstacles.nearest_m = {{}, {1.5F}, {}};
   robot.take(obstacles, 0.0);
   robot.take(localisation(localisation_t::STATE_LOST, {}), 10.0);
   EXPECT_THAT(robot.lines(10.0).at(0), Not(HasSubstr("obstacle")));
