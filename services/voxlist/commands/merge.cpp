@@ -57,10 +57,10 @@ fs::path spool_folder(const fs::path& folder) {
 }
 
 // The map of a folder, its keyframes in the spool.
-std::unique_ptr<Piece> read_piece(const fs::path& folder, const DeskSettings& settings,
-                                  mapping::KeyframeSpool& spool, Console& console) {
-  auto piece =
-      std::make_unique<Piece>(settings.localiser, mapping::MapBuilder(settings.mapper), spool);
+std::unique_ptr<mapping::Piece> read_piece(const fs::path& folder, const DeskSettings& settings,
+                                           mapping::KeyframeSpool& spool, Console& console) {
+  auto piece = std::make_unique<mapping::Piece>(settings.localiser,
+                                                mapping::MapBuilder(settings.mapper), spool);
   mapping::KeyframeReader reader(folder / mapping::kKeyframeFile);
   while (!stop_requested()) {
     auto keyframe = reader.next();
@@ -89,7 +89,8 @@ std::string refusal(const MergeOptions& options, const Meeting& meeting) {
 }
 
 // Those of both, each on its own map's keyframes.
-mapping::MapEdits edits_of_both(const MergeOptions& options, const Piece& piece, Console& console) {
+mapping::MapEdits edits_of_both(const MergeOptions& options, const mapping::Piece& piece,
+                                Console& console) {
   mapping::MapEdits edits = edits_of(options.first, console);
   edits.append(edits_of(options.second, console), piece.first_session());
   if (const std::string fault = fault_of(edits.boxes()); !fault.empty())
@@ -103,7 +104,7 @@ std::vector<StampedPose3> by_time(std::vector<StampedPose3> trajectory) {
   return trajectory;
 }
 
-RunFigures figures_of(const MergeOptions& options, const Piece& piece,
+RunFigures figures_of(const MergeOptions& options, const mapping::Piece& piece,
                       const PieceClosing& closing) {
   RunFigures figures;
   figures.input = options.first.string() + " and " + options.second.string();
@@ -114,7 +115,7 @@ RunFigures figures_of(const MergeOptions& options, const Piece& piece,
   return figures;
 }
 
-void write(const MergeOptions& options, const DeskSettings& settings, const Piece& piece,
+void write(const MergeOptions& options, const DeskSettings& settings, const mapping::Piece& piece,
            mapping::KeyframeSpool& spool, mapping::MapEdits edits, const RunFigures& figures,
            const drawing::ClosedLoops& closed, Console& console) {
   MapFiles files(options.folder);

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "services/voxlist/output/stop.h"
-#include "voxlist/geometry/elementary.h"
+#include "voxlist/mapping/pieces/leaving.h"
 #include "voxlist/matching/localisation/reach_match.h"
 #include "voxlist/matching/localisation/thread_arena.h"
 
@@ -21,54 +21,30 @@ using matching::LocalisationState;
 constexpr double kReturns = 0.5;
 // A piece goes on where the one before it ended, as a robot that is followed does (pose_track.cpp).
 constexpr double kGoesOn = 0.995;
-// One scan alone is sure from these odds (their logarithm) on. In simulated rooms of 8 m range,
-// each looked for at some twenty places, wrong ones came to 7.3.
-constexpr double kSureAlone = 10.0;
 // Where the two searches of look_back() agree, this probability is enough. On real stations, 57 of
 // the 57 next scans that were in sight had more, and 3 of 230 of other places, which are rare here.
 constexpr double kSureBack = 0.99;
 // How often it is looked from a new piece back at the one before: as it grows, more of that is in
 // sight, and more that looks like it.
 constexpr int kLookBacks = 3;
-// So far (m) a robot may go and still see most of what it saw: across a room or a street.
-constexpr double kNear_m = 10.0;
-// Two searches found the same place if they differ by no more than this (m, rad).
-constexpr double kSame_m = 0.3, kSame_rad = 0.03;
 // Most searches at the end for what has no place yet, each 0.1 to 1 s.
 constexpr std::size_t kLastSearches = 200;
 
 Pose2 pose_of(const Localisation& found) { return found.modes.front().T_map_base; }
 
-double log_odds(double probability) {
-  constexpr double kNearlyOne = 1.0 - 1e-9;
-  return elementary::log(probability) - elementary::log(1.0 - std::min(probability, kNearlyOne));
-}
-
 // Whether a search looked at everything, and what it found is held in every direction.
 bool tells_a_place(const Localisation& found) {
   return !found.modes.empty() && found.unseen < 1.0 &&
-         worst_sigma_m(found.modes.front().covariance) < kSame_m;
+         worst_sigma_m(found.modes.front().covariance) < mapping::kSamePlace_m;
 }
 
 // Whether a scan came as the others of a piece came: after a gap, the robot may be anywhere.
-bool goes_on(const Piece& piece, std::int64_t utime_us) {
+bool goes_on(const mapping::Piece& piece, std::int64_t utime_us) {
   const auto& trajectory = piece.trajectory();
   if (trajectory.size() < 2) return false;
   const std::int64_t last_us = trajectory.back().utime_us,
                      usual_us = last_us - trajectory[trajectory.size() - 2].utime_us;
   return 2 * (utime_us - last_us) <= 3 * usual_us;
-}
-
-// Whether a scan fits where the robot is followed, and only what is in sight does not hold it in
-// some direction, along a street: the next scans will, or the whole belief fades. It is not
-// searched for at the end: what did not hold it then may seem to hold it elsewhere.
-bool is_followed(const Localisation& found) {
-  return found.confidence >= matching::kSureInReach &&
-         worst_sigma_m(found.modes.front().covariance) < kNear_m / 3.0;
-}
-
-bool same(const Pose2& a, const Pose2& b) {
-  return distance_m(a, b) < kSame_m && turn_rad(a, b) < kSame_rad;
 }
 
 }  // namespace
@@ -83,13 +59,13 @@ MapRun::MapRun(const matching::LocaliserConfig& localiser, const mapping::MapBui
       now_(&new_piece()) {}
 
 MapRun::MapRun(const matching::LocaliserConfig& localiser, const mapping::MapBuilderConfig& mapper,
-               mapping::KeyframeSpool& spool, mapping::MapBuilder map, Piece::Keep keep)
+               mapping::KeyframeSpool& spool, mapping::MapBuilder map, mapping::Piece::Keep keep)
     : localiser_(localiser),
       mapper_(mapper),
       spool_(spool),
       goes_on_(true),
       look_ahead_(spool, localiser.matcher, false) {
-  pieces_.push_back(std::make_unique<Piece>(localiser_, std::move(map), spool_, std::move(keep)));
+  pieces_.push_back(std::make_unique<mapping::Piece>(localiser_, std::move(map), std::move(keep)));
   now_ = pieces_.front().get();
 }
 
@@ -102,7 +78,8 @@ void MapRun::localise(const Scan& scan) {
   if (!floor_ && localiser_.tilt == TiltUse::kPlanar) floor_ = found.floor;
   if (found.tracking()) return take(scan, found);
   note_lost(scan, found.state);
-  if (is_followed(found)) return;
+  // Not searched for at the end: what did not hold it now may seem to hold it elsewhere.
+  if (mapping::is_followed(found)) return;
   is_near(scan, found) ? wait(scan) : begin_piece(scan, found);
 }
 
@@ -162,7 +139,7 @@ std::int64_t MapRun::count_ambiguous() const {
                        [&](std::int64_t utime_us) { return !placed_us.contains(utime_us); });
 }
 
-const Piece& MapRun::map() const {
+const mapping::Piece& MapRun::map() const {
   if (goes_on_) return *pieces_.front();
   return **std::max_element(pieces_.begin(), pieces_.end(), [](const auto& a, const auto& b) {
     return a->trajectory().size() < b->trajectory().size();
@@ -170,19 +147,20 @@ const Piece& MapRun::map() const {
 }
 
 // A piece of one scan may be of a bad one.
-bool MapRun::is_confirmed(const Piece& piece) const {
+bool MapRun::is_confirmed(const mapping::Piece& piece) const {
   return piece.trajectory().size() > 1 || (goes_on_ && &piece == pieces_.front().get());
 }
 
-Piece& MapRun::new_piece() {
-  pieces_.push_back(std::make_unique<Piece>(localiser_, mapping::MapBuilder(mapper_), spool_));
+mapping::Piece& MapRun::new_piece() {
+  pieces_.push_back(
+      std::make_unique<mapping::Piece>(localiser_, mapping::MapBuilder(mapper_), spool_));
   return *pieces_.back();
 }
 
-void MapRun::erase(const Piece& piece) {
+void MapRun::erase(const mapping::Piece& piece) {
   if (left_ == &piece) left_ = nullptr;
   if (behind_ && behind_->piece == &piece) behind_.reset();
-  if (hint_ && hint_->piece == &piece) hint_.reset();
+  joint_.forget(&piece);
   std::erase_if(pieces_, [&](const auto& other) { return other.get() == &piece; });
 }
 
@@ -207,26 +185,21 @@ bool MapRun::go_back(const Scan& scan) {
   if (!found.tracking()) return false;
   loosen(*std::exchange(now_, std::exchange(left_, nullptr)));
   behind_.reset();
-  hint_.reset();
+  joint_.clear();
   take(scan, found);
   return true;
 }
 
-// Whether the robot cannot be far from where it was placed last: then it sees what the map has
-// there, and the next scan, or the one after, fits. Where it is still followed, odometry knows how
-// far it went.
+// Whether the next scan, or the one after, fits the piece that the robot is in.
 bool MapRun::is_near(const Scan& scan, const Localisation& found) const {
   if (!is_confirmed(*now_) || now_->trajectory().empty()) return false;
-  const auto since_us = scan.cloud.utime_us - now_->trajectory().back().utime_us;
-  double way_m = static_cast<double>(since_us) * 1e-6 * localiser_.max_speed_mps;
-  if (!found.searched_whole_map && scan.T_odom_base && T_odom_placed_)
-    way_m = std::min(way_m, distance_m(*scan.T_odom_base, *T_odom_placed_));
-  return way_m < kNear_m;
+  return mapping::is_near({now_->trajectory().back().utime_us, T_odom_placed_},
+                          {scan.cloud.utime_us, scan.T_odom_base}, found, localiser_.max_speed_mps);
 }
 
 // The scan belongs to no piece; at the end it is searched for.
 void MapRun::wait(const Scan& scan) {
-  Piece& piece = new_piece();
+  mapping::Piece& piece = new_piece();
   const Localisation found =
       piece.localiser().localise(scan.cloud, scan.T_odom_base, scan.odometry_tilt);
   if (!found.tracking()) return erase(piece);
@@ -237,14 +210,14 @@ void MapRun::wait(const Scan& scan) {
 // The scan is the origin of a new piece, unless it is blind. `elsewhere`: what the piece so far
 // says of it.
 void MapRun::begin_piece(const Scan& scan, const Localisation& elsewhere) {
-  Piece& piece = new_piece();
+  mapping::Piece& piece = new_piece();
   const Localisation found =
       piece.localiser().localise(scan.cloud, scan.T_odom_base, scan.odometry_tilt);
   if (!found.tracking()) return erase(piece);
-  Piece* const last = std::exchange(now_, &piece);
+  mapping::Piece* const last = std::exchange(now_, &piece);
   now_->take(scan.cloud, found.modes.front(), scan.T_odom_base);
   behind_.reset();
-  hint_.reset();
+  joint_.clear();
   if (goes_on(*last, scan.cloud.utime_us) && !elsewhere.modes.empty())
     behind_ = {last, pose_of(elsewhere)};
   if (is_confirmed(*last) || !left_) {
@@ -271,7 +244,7 @@ void MapRun::take(const Scan& scan, const Localisation& found) {
 }
 
 // Its only scan belongs to no piece any more.
-void MapRun::loosen(Piece& piece) {
+void MapRun::loosen(mapping::Piece& piece) {
   loose_.insert(loose_.end(), piece.keyframes().begin(), piece.keyframes().end());
   erase(piece);
 }
@@ -279,33 +252,17 @@ void MapRun::loosen(Piece& piece) {
 // Whether the newest scan, which is a keyframe now, fits one of the others, which take turns: one
 // search for each keyframe.
 void MapRun::search_elsewhere(const Scan& scan) {
-  std::vector<Piece*> others;
+  std::vector<mapping::Piece*> others;
   for (const auto& piece : pieces_)
     if (piece.get() != now_ && is_confirmed(*piece)) others.push_back(piece.get());
   if (others.empty()) return;
-  Piece& other = *others[searches_++ % others.size()];
+  mapping::Piece& other = *others[searches_++ % others.size()];
   const Localisation found = other.localiser().recognise(scan.cloud, kReturns);
   if (!tells_a_place(found)) return;
   const Pose2 T_now_base = to_pose2(now_->trajectory().back().pose);
   const Pose2 T_other_now = pose_of(found) * T_now_base.inverse();
-  if (is_sure(other, T_other_now * T_now_base, T_now_base, found.confidence))
+  if (joint_.add(&other, T_other_now * T_now_base, T_now_base, found.confidence))
     join(other, *now_, T_other_now);
-}
-
-// Whether a scan that was found in another piece says surely where that is, by itself or with an
-// earlier one that said the same. Neighbours err together, so the less sure of two counts half.
-bool MapRun::is_sure(Piece& other, const Pose2& T_other_base, const Pose2& T_now_base,
-                     double confidence) {
-  const double odds = log_odds(confidence);
-  const bool agrees =
-      hint_ && hint_->piece == &other && same(hint_->T_other_now * T_now_base, T_other_base);
-  if (odds >= kSureAlone) return true;
-  if (agrees && std::min(odds, hint_->log_odds) > 0.0 &&
-      std::max(odds, hint_->log_odds) + 0.5 * std::min(odds, hint_->log_odds) >=
-          log_odds(matching::kSureInReach))
-    return true;
-  if (!hint_ || odds > hint_->log_odds) hint_ = {&other, T_other_base * T_now_base.inverse(), odds};
-  return false;
 }
 
 // A drive goes on where it was, so backwards, the last scan of the piece before may fit the newest
@@ -320,15 +277,15 @@ void MapRun::look_back() {
   if (back.confidence < kSureBack || !tells_a_place(back)) return;
   const Pose2 T_behind_now = to_pose2(last.T_map_base) * pose_of(back).inverse();
   const Pose2 T_by_all = behind_->T_behind_now;
-  if (same(T_behind_now, T_by_all)) return join(*behind_->piece, *now_, T_by_all);
+  if (mapping::is_same_place(T_behind_now, T_by_all)) return join(*behind_->piece, *now_, T_by_all);
   if (back.confidence < matching::kSureInReach) return;
-  if (behind_->T_look && same(T_behind_now, *behind_->T_look))
+  if (behind_->T_look && mapping::is_same_place(T_behind_now, *behind_->T_look))
     return join(*behind_->piece, *now_, T_behind_now);
   behind_->T_look = T_behind_now;
 }
 
 // The smaller piece goes into the larger one.
-void MapRun::join(Piece& piece, Piece& other, const Pose2& T_piece_other) {
+void MapRun::join(mapping::Piece& piece, mapping::Piece& other, const Pose2& T_piece_other) {
   const bool fixed = goes_on_ && &piece == pieces_.front().get();
   if (!fixed && piece.trajectory().size() < other.trajectory().size())
     return join(other, piece, T_piece_other.inverse());
@@ -340,14 +297,14 @@ void MapRun::join(Piece& piece, Piece& other, const Pose2& T_piece_other) {
   erase(other);
   if (left_ == now_) left_ = nullptr;
   behind_.reset();
-  hint_.reset();
+  joint_.clear();
 }
 
 // Searches the map for the scans of the other pieces, until one of them joins it.
 bool MapRun::join_one() {
   for (const auto& piece : pieces_) {
     if (piece.get() == &map()) continue;
-    hint_.reset();
+    joint_.clear();
     const std::vector<mapping::SpooledKeyframe> keyframes = piece->keyframes();
     for (const mapping::SpooledKeyframe& keyframe : keyframes)
       if (joins_map(*piece, keyframe)) return true;
@@ -355,11 +312,11 @@ bool MapRun::join_one() {
   return false;
 }
 
-bool MapRun::joins_map(Piece& piece, const mapping::SpooledKeyframe& keyframe) {
+bool MapRun::joins_map(mapping::Piece& piece, const mapping::SpooledKeyframe& keyframe) {
   if (stop_requested() || ++searches_ > kLastSearches) return false;
   const Localisation found = map().localiser().recognise(spool_.read(keyframe).cloud, kReturns);
   const Pose2 T_piece_base = to_pose2(keyframe.T_map_base);
-  if (!tells_a_place(found) || !is_sure(map(), pose_of(found), T_piece_base, found.confidence))
+  if (!tells_a_place(found) || !joint_.add(&map(), pose_of(found), T_piece_base, found.confidence))
     return false;
   join(map(), piece, pose_of(found) * T_piece_base.inverse());
   return true;
@@ -385,7 +342,7 @@ bool MapRun::place_between(const Cloud& cloud, const std::optional<Pose2>& T_odo
 
 bool MapRun::place_anywhere(const Cloud& cloud, const std::optional<Pose2>& T_odom_base) {
   const Localisation found = map().localiser().recognise(cloud, kReturns);
-  const bool sure = tells_a_place(found) && log_odds(found.confidence) >= kSureAlone;
+  const bool sure = tells_a_place(found) && mapping::is_sure_alone(found.confidence);
   if (sure) map().take(cloud, found.modes.front(), T_odom_base);
   return sure;
 }

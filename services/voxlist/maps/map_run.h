@@ -7,12 +7,13 @@
 
 #include "services/voxlist/maps/ahead/look_ahead.h"
 #include "services/voxlist/maps/odometry_trail.h"
-#include "services/voxlist/maps/piece.h"
 #include "services/voxlist/maps/piece_closing.h"
 #include "services/voxlist/maps/summary.h"
 #include "services/voxlist/recording/scan_input.h"
 #include "voxlist/mapping/keyframe_spool.h"
 #include "voxlist/mapping/map_builder.h"
+#include "voxlist/mapping/pieces/piece.h"
+#include "voxlist/mapping/pieces/piece_joint.h"
 #include "voxlist/matching/localisation/localiser.h"
 
 namespace voxlist::desk {
@@ -31,7 +32,7 @@ class MapRun {
   /// Goes on with a map that is there: it is the map whatever comes beside it, and `keep` is given
   /// each keyframe that goes into it.
   MapRun(const matching::LocaliserConfig& localiser, const mapping::MapBuilderConfig& mapper,
-         mapping::KeyframeSpool& spool, mapping::MapBuilder map, Piece::Keep keep);
+         mapping::KeyframeSpool& spool, mapping::MapBuilder map, mapping::Piece::Keep keep);
 
   /// Finds the scan's pose, and adds the scan to the map if it is sure and the scan tells
   /// something new.
@@ -63,24 +64,17 @@ class MapRun {
   // that the newest piece's origin may be, how often that was tried, and what the last try that was
   // sure said.
   struct Behind {
-    Piece* piece;
+    mapping::Piece* piece;
     Pose2 T_behind_now;
     int looks = 0;
     std::optional<Pose2> T_look = std::nullopt;
   };
 
-  // Where another piece may be: what a scan said that was not sure by itself.
-  struct Hint {
-    const Piece* piece;
-    Pose2 T_other_now;
-    double log_odds;
-  };
-
-  const Piece& map() const;
-  Piece& map() { return const_cast<Piece&>(std::as_const(*this).map()); }
-  bool is_confirmed(const Piece& piece) const;
-  Piece& new_piece();
-  void erase(const Piece& piece);
+  const mapping::Piece& map() const;
+  mapping::Piece& map() { return const_cast<mapping::Piece&>(std::as_const(*this).map()); }
+  bool is_confirmed(const mapping::Piece& piece) const;
+  mapping::Piece& new_piece();
+  void erase(const mapping::Piece& piece);
 
   void note(const Scan& scan);
   void note_lost(const Scan& scan, matching::LocalisationState state);
@@ -91,15 +85,14 @@ class MapRun {
   void wait(const Scan& scan);
   void begin_piece(const Scan& scan, const matching::Localisation& elsewhere);
   void take(const Scan& scan, const matching::Localisation& found);
-  void loosen(Piece& piece);
+  void loosen(mapping::Piece& piece);
 
   void search_elsewhere(const Scan& scan);
-  bool is_sure(Piece& other, const Pose2& T_other_base, const Pose2& T_now_base, double confidence);
   void look_back();
-  void join(Piece& piece, Piece& other, const Pose2& T_piece_other);
+  void join(mapping::Piece& piece, mapping::Piece& other, const Pose2& T_piece_other);
 
   bool join_one();
-  bool joins_map(Piece& piece, const mapping::SpooledKeyframe& keyframe);
+  bool joins_map(mapping::Piece& piece, const mapping::SpooledKeyframe& keyframe);
   void place_loose();
   bool place_between(const Cloud& cloud, const std::optional<Pose2>& T_odom_base);
   bool place_anywhere(const Cloud& cloud, const std::optional<Pose2>& T_odom_base);
@@ -109,15 +102,15 @@ class MapRun {
   mapping::KeyframeSpool& spool_;
   const bool goes_on_;
   LookAhead look_ahead_;
-  std::vector<std::unique_ptr<Piece>> pieces_;
+  std::vector<std::unique_ptr<mapping::Piece>> pieces_;
   // The piece that mapping goes on in.
-  Piece* now_ = nullptr;
+  mapping::Piece* now_ = nullptr;
   // The one before it, as long as the newest has but one scan, which may be the bad one.
-  Piece* left_ = nullptr;
+  mapping::Piece* left_ = nullptr;
   // Odometry where the last scan was placed.
   std::optional<Pose2> T_odom_placed_;
   std::optional<Behind> behind_;
-  std::optional<Hint> hint_;
+  mapping::PieceJoint joint_;
   std::size_t searches_ = 0;
   // Scans that belong to no piece: only scans of pieces that no other fitted.
   std::vector<mapping::SpooledKeyframe> loose_;

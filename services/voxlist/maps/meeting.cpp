@@ -60,7 +60,7 @@ struct Hint {
 
 class Search {
  public:
-  Search(Piece& map, const Piece& other, mapping::KeyframeSpool& spool,
+  Search(mapping::Piece& map, const mapping::Piece& other, mapping::KeyframeSpool& spool,
          const matching::MatcherConfig& config)
       : map_(map), other_(other), spool_(spool), config_(config) {
     for (std::size_t i = 0; i < other.keyframes().size(); ++i)
@@ -78,7 +78,7 @@ class Search {
   }
 
  private:
-  static Pose2 pose(const Piece& piece, std::size_t i) {
+  static Pose2 pose(const mapping::Piece& piece, std::size_t i) {
     return to_pose2(piece.keyframes()[i].T_map_base);
   }
 
@@ -160,8 +160,8 @@ class Search {
     return meeting;
   }
 
-  Piece& map_;
-  const Piece& other_;
+  mapping::Piece& map_;
+  const mapping::Piece& other_;
   mapping::KeyframeSpool& spool_;
   const matching::MatcherConfig config_;
   std::vector<std::size_t> asked_;
@@ -169,8 +169,8 @@ class Search {
 
 }  // namespace
 
-Meeting find_meeting(Piece& map, const Piece& other, mapping::KeyframeSpool& spool,
-                     const matching::MatcherConfig& config) {
+Meeting find_meeting(mapping::Piece& map, const mapping::Piece& other,
+                     mapping::KeyframeSpool& spool, const matching::MatcherConfig& config) {
   return Search(map, other, spool, config).find();
 }
 

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "services/voxlist/maps/piece.h"
+#include "voxlist/mapping/pieces/piece.h"
 
 namespace voxlist::desk {
 
@@ -21,7 +21,7 @@ struct Meeting {
 /// Searches a map for the scans of another one. No scan is believed by itself: four at least that
 /// stand 2 m apart must fit where one of them says that the other map lies, and most of all that
 /// were taken on the map's ground by that. Searches take 0.1 to 1 s each, 60 at most.
-Meeting find_meeting(Piece& map, const Piece& other, mapping::KeyframeSpool& spool,
-                     const matching::MatcherConfig& config);
+Meeting find_meeting(mapping::Piece& map, const mapping::Piece& other,
+                     mapping::KeyframeSpool& spool, const matching::MatcherConfig& config);
 
 }  // namespace voxlist::desk

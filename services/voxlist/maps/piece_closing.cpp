@@ -3,7 +3,7 @@
 namespace voxlist::desk {
 namespace {
 
-mapping::MapKeyframes keyframes_of(const Piece& piece) {
+mapping::MapKeyframes keyframes_of(const mapping::Piece& piece) {
   mapping::MapKeyframes keyframes;
   for (std::size_t i = 0; i < piece.keyframes().size(); ++i) {
     const mapping::SpooledKeyframe& keyframe = piece.keyframes()[i];
@@ -19,7 +19,7 @@ Cloud level_cloud(mapping::KeyframeSpool& spool, const mapping::SpooledKeyframe&
   return mapping::level_cloud(spool.read(keyframe));
 }
 
-PieceClosing close_piece(Piece& piece, mapping::KeyframeSpool& spool,
+PieceClosing close_piece(mapping::Piece& piece, mapping::KeyframeSpool& spool,
                          const matching::MatcherConfig& config, const LookAhead::Looks& looks) {
   const auto& keyframes = piece.keyframes();
   const auto known = [&](std::size_t from, std::size_t to) {

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "services/voxlist/maps/ahead/look_ahead.h"
-#include "services/voxlist/maps/piece.h"
 #include "voxlist/drawing/map_picture.h"
 #include "voxlist/mapping/loops/session_closing.h"
+#include "voxlist/mapping/pieces/piece.h"
 
 namespace voxlist::desk {
 
@@ -22,7 +22,7 @@ Cloud level_cloud(mapping::KeyframeSpool& spool, const mapping::SpooledKeyframe&
 /// ground of long before, its keyframes go where all scans agree, and its map is made anew. The
 /// keyframe that is the piece's origin stays. `looks`: of its keyframes, taken before; the answer
 /// is the same without them.
-PieceClosing close_piece(Piece& piece, mapping::KeyframeSpool& spool,
+PieceClosing close_piece(mapping::Piece& piece, mapping::KeyframeSpool& spool,
                          const matching::MatcherConfig& config, const LookAhead::Looks& looks = {});
 
 }  // namespace voxlist::desk

@@ -30,12 +30,12 @@ class MeetingTest : public testing::Test {
   }
 
   // A map of a stretch of the drive through a building, in the frame of `T_map_world`.
-  std::unique_ptr<Piece> map(const simulation::Building& building, std::size_t from, std::size_t to,
-                             const Pose2& T_map_world = {}) {
+  std::unique_ptr<mapping::Piece> map(const simulation::Building& building, std::size_t from,
+                                      std::size_t to, const Pose2& T_map_world = {}) {
     const bench::TwinDrive drive = bench::twin_drive(building, false, 1);
     const simulation::World world(building);
-    auto piece =
-        std::make_unique<Piece>(matching::LocaliserConfig{}, mapping::MapBuilder(), spool_);
+    auto piece = std::make_unique<mapping::Piece>(matching::LocaliserConfig{},
+                                                  mapping::MapBuilder(), spool_);
     for (std::size_t i = from; i < to && i < drive.truth.size(); ++i) {
       const auto seed = static_cast<std::uint64_t>(1000 * from + i);
       Cloud scan = simulation::scan_sphere(world, drive.truth[i], {.rays = 8000}, seed);
@@ -45,7 +45,7 @@ class MeetingTest : public testing::Test {
     return piece;
   }
 
-  std::string write(const std::string& name, const Piece& piece) {
+  std::string write(const std::string& name, const mapping::Piece& piece) {
     const std::string folder = (folder_.path() / name).string();
     const MapFiles files(folder);
     files.write_keyframes(spool_, piece.keyframes(), piece.builder().map().occupied);
@@ -78,7 +78,9 @@ class MeetingTest : public testing::Test {
     return voxels;
   }
 
-  Meeting meet(Piece& map, const Piece& other) { return find_meeting(map, other, spool_, {}); }
+  Meeting meet(mapping::Piece& map, const mapping::Piece& other) {
+    return find_meeting(map, other, spool_, {});
+  }
 
   const test::TemporaryFolder folder_;
   const std::string both_ = (folder_.path() / "both").string();

@@ -1,4 +1,4 @@
-#include "services/voxlist/maps/piece.h"
+#include "voxlist/mapping/pieces/piece.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 
 #include "tests/temporary_folder.h"
 
-namespace voxlist::desk {
+namespace voxlist::mapping {
 namespace {
 
 // A wall 2 m ahead, as wide as it is new.
@@ -26,8 +26,8 @@ matching::PoseMode at(double x_m) {
 
 TEST(Piece, MakesItsMapAnewWhereKeyframesAreMoved) {
   const test::TemporaryFolder folder;
-  mapping::KeyframeSpool spool(folder.path());
-  Piece piece({}, mapping::MapBuilder(), spool);
+  KeyframeSpool spool(folder.path());
+  Piece piece({}, MapBuilder(), spool);
   ASSERT_TRUE(piece.take(wall(0, 1.0F), at(0.0), std::nullopt));
   ASSERT_TRUE(piece.take(wall(1'000'000, 3.0F), at(4.0), std::nullopt));
   ASSERT_FALSE(piece.take(wall(1'200'000, 3.0F), at(4.1), std::nullopt));
@@ -35,7 +35,7 @@ TEST(Piece, MakesItsMapAnewWhereKeyframesAreMoved) {
   const Pose2 moved{3.0, 1.0, std::numbers::pi / 2};
   piece.move_keyframes({{}, moved});
 
-  mapping::MapBuilder fresh;
+  MapBuilder fresh;
   fresh.add({Pose3::Identity(), wall(0, 1.0F)});
   fresh.add({to_pose3(moved), wall(1'000'000, 3.0F)});
   EXPECT_EQ(piece.builder().map().occupied.hash(), fresh.map().occupied.hash());
@@ -49,8 +49,8 @@ TEST(Piece, MakesItsMapAnewWhereKeyframesAreMoved) {
 
 TEST(Piece, MovesAScanWithAKeyframeOfItsOwnSession) {
   const test::TemporaryFolder folder;
-  mapping::KeyframeSpool spool(folder.path());
-  Piece piece({}, mapping::MapBuilder(), spool), other({}, mapping::MapBuilder(), spool);
+  KeyframeSpool spool(folder.path());
+  Piece piece({}, MapBuilder(), spool), other({}, MapBuilder(), spool);
   piece.add(wall(0, 1.0F), Pose3::Identity());
   other.add(wall(0, 3.0F), Pose3::Identity());
   piece.begin_session();
@@ -66,4 +66,4 @@ TEST(Piece, MovesAScanWithAKeyframeOfItsOwnSession) {
 }
 
 }  // namespace
-}  // namespace voxlist::desk
+}  // namespace voxlist::mapping

@@ -4,12 +4,11 @@
 #include <utility>
 #include <vector>
 
-#include "services/voxlist/recording/scan_input.h"
 #include "voxlist/mapping/keyframe_spool.h"
 #include "voxlist/mapping/map_builder.h"
 #include "voxlist/matching/localisation/localiser.h"
 
-namespace voxlist::desk {
+namespace voxlist::mapping {
 
 /// A part of a drive that hangs together: a map with its localiser, in a frame of its own, that of
 /// its first scan or of a map that was there before. Its keyframes wait in a spool.
@@ -17,22 +16,24 @@ class Piece {
  public:
   /// Is given each keyframe that goes into the map, and odometry's pose then, for whoever keeps
   /// them elsewhere.
-  using Keep = std::function<void(const mapping::Keyframe&, const std::optional<Pose2>&)>;
+  using Keep = std::function<void(const Keyframe&, const std::optional<Pose2>&)>;
 
-  /// The spool must outlive it. A piece with `keep` leaves nothing in the spool.
-  Piece(const matching::LocaliserConfig& localiser, mapping::MapBuilder map,
-        mapping::KeyframeSpool& spool, Keep keep = {});
+  /// The spool must outlive it.
+  Piece(const matching::LocaliserConfig& localiser, MapBuilder map, KeyframeSpool& spool);
+
+  /// A piece that leaves nothing in a spool.
+  Piece(const matching::LocaliserConfig& localiser, MapBuilder map, Keep keep);
   Piece(const Piece&) = delete;
   Piece& operator=(const Piece&) = delete;
 
   matching::Localiser& localiser() { return localiser_; }
-  const mapping::MapBuilder& builder() const { return builder_; }
+  const MapBuilder& builder() const { return builder_; }
 
   /// T_piece_base of every scan that was placed.
   const std::vector<StampedPose3>& trajectory() const { return trajectory_; }
 
   /// The keyframes in the spool, in the order in which they went into the map.
-  const std::vector<mapping::SpooledKeyframe>& keyframes() const { return keyframes_; }
+  const std::vector<SpooledKeyframe>& keyframes() const { return keyframes_; }
 
   /// Takes a scan at the pose that was found in the piece, and adds it to the map if it tells
   /// something new. Returns whether it did.
@@ -43,7 +44,7 @@ class Piece {
   void add(Cloud cloud, const Pose3& T_piece_base);
 
   /// Takes edits by hand. No scan is looked for in it afterwards.
-  void edit(mapping::MapEdits edits) { builder_.edit(std::move(edits)); }
+  void edit(MapEdits edits) { builder_.edit(std::move(edits)); }
 
   /// Takes the poses of all scans that were placed, where they were placed elsewhere.
   void set_trajectory(std::vector<StampedPose3> T_piece_base) {
@@ -70,16 +71,16 @@ class Piece {
     std::size_t keyframe = 0, scan = 0;
   };
 
-  void add(mapping::Keyframe keyframe, const std::optional<Pose2>& T_odom_base);
-  mapping::Keyframe add_to_map(mapping::Keyframe keyframe);
+  void add(Keyframe keyframe, const std::optional<Pose2>& T_odom_base);
+  Keyframe add_to_map(Keyframe keyframe);
 
-  mapping::MapBuilder builder_;
-  mapping::KeyframeSpool& spool_;
+  MapBuilder builder_;
+  KeyframeSpool* const spool_;  // nothing where others keep the keyframes
   const Keep keep_;
   matching::Localiser localiser_;
   std::vector<StampedPose3> trajectory_;
-  std::vector<mapping::SpooledKeyframe> keyframes_;
+  std::vector<SpooledKeyframe> keyframes_;
   Begin second_session_;
 };
 
-}  // namespace voxlist::desk
+}  // namespace voxlist::mapping

@@ -1,4 +1,4 @@
-#include "services/voxlist/maps/piece.h"
+#include "voxlist/mapping/pieces/piece.h"
 
 #include <optional>
 #include <span>
@@ -6,12 +6,14 @@
 
 #include "voxlist/mapping/graph/carried_scans.h"
 
-namespace voxlist::desk {
+namespace voxlist::mapping {
 
-Piece::Piece(const matching::LocaliserConfig& localiser, mapping::MapBuilder map,
-             mapping::KeyframeSpool& spool, Keep keep)
+Piece::Piece(const matching::LocaliserConfig& localiser, MapBuilder map, KeyframeSpool& spool)
+    : builder_(std::move(map)), spool_(&spool), localiser_(builder_.map(), localiser) {}
+
+Piece::Piece(const matching::LocaliserConfig& localiser, MapBuilder map, Keep keep)
     : builder_(std::move(map)),
-      spool_(spool),
+      spool_(nullptr),
       keep_(std::move(keep)),
       localiser_(builder_.map(), localiser) {}
 
@@ -37,12 +39,11 @@ void Piece::move_keyframes(const std::vector<Pose2>& T_piece_base) {
     pose = to_pose3(T_piece_base[i], tilt_of(pose));
     poses.emplace_back(pose);
   }
-  builder_.move(poses, [this](std::size_t i) { return spool_.read(keyframes_[i]).cloud; });
+  builder_.move(poses, [this](std::size_t i) { return spool_->read(keyframes_[i]).cloud; });
   const auto carry = [&](Begin begin, Begin end) {
-    mapping::carry_scans(
-        std::span(trajectory_).subspan(begin.scan, end.scan - begin.scan),
-        std::span(before).subspan(begin.keyframe, end.keyframe - begin.keyframe),
-        std::span(builder_.poses()).subspan(begin.keyframe, end.keyframe - begin.keyframe));
+    carry_scans(std::span(trajectory_).subspan(begin.scan, end.scan - begin.scan),
+                std::span(before).subspan(begin.keyframe, end.keyframe - begin.keyframe),
+                std::span(builder_.poses()).subspan(begin.keyframe, end.keyframe - begin.keyframe));
   };
   if (first_session() > 0) carry({}, second_session_);
   carry(second_session_, {keyframes_.size(), trajectory_.size()});
@@ -50,9 +51,9 @@ void Piece::move_keyframes(const std::vector<Pose2>& T_piece_base) {
 
 void Piece::join(const Piece& other, const Pose2& T_this_other) {
   const Pose3 to_here = to_pose3(T_this_other);
-  for (mapping::SpooledKeyframe keyframe : other.keyframes_) {
+  for (SpooledKeyframe keyframe : other.keyframes_) {
     keyframe.T_map_base = to_here * keyframe.T_map_base;
-    const mapping::Keyframe added = add_to_map(spool_.read(keyframe));
+    const Keyframe added = add_to_map(other.spool_->read(keyframe));
     if (keep_)
       keep_(added, keyframe.T_odom_base);
     else
@@ -62,16 +63,16 @@ void Piece::join(const Piece& other, const Pose2& T_this_other) {
     trajectory_.push_back({pose.utime_us, to_here * pose.pose});
 }
 
-void Piece::add(mapping::Keyframe keyframe, const std::optional<Pose2>& T_odom_base) {
+void Piece::add(Keyframe keyframe, const std::optional<Pose2>& T_odom_base) {
   keyframe = add_to_map(std::move(keyframe));
   if (keep_) return keep_(keyframe, T_odom_base);
-  keyframes_.push_back({spool_.add(keyframe), keyframe.T_map_base, T_odom_base});
+  keyframes_.push_back({spool_->add(keyframe), keyframe.T_map_base, T_odom_base});
 }
 
-mapping::Keyframe Piece::add_to_map(mapping::Keyframe keyframe) {
+Keyframe Piece::add_to_map(Keyframe keyframe) {
   keyframe = builder_.add(std::move(keyframe));
   localiser_.map_changed(builder_.changed_blocks());
   return keyframe;
 }
 
-}  // namespace voxlist::desk
+}  // namespace voxlist::mapping
