@@ -57,6 +57,17 @@ TEST_F(Localise, IsRightWhereItSaysThatItIsSure) {
   EXPECT_GT(sure, 0);
 }
 
+TEST_F(Localise, MatchesOnlyTheHeightsThatItIsTold) {
+  const auto matched_at = [&](const char* low, const char* high) {
+    return test::run({"localise", map_, scans_, "-o", result_, "--match-heights", low, high});
+  };
+  EXPECT_THAT(matched_at("-1", "9").out, StartsWith(localise(scans_).out.substr(0, 40)));
+  EXPECT_THAT(matched_at("50", "60").out, HasSubstr(" 0 TRACKING, 0 AMBIGUOUS"));
+  const test::DeskRun none = matched_at("2", "1");
+  EXPECT_EQ(none.exit_code, 1);
+  EXPECT_THAT(none.err, HasSubstr("match_heights_m"));
+}
+
 TEST_F(Localise, FindsTheSameInAMapWhosePosesHaveAHeight) {
   const auto without_time = [&] {
     std::string rows;

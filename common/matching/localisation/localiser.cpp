@@ -81,7 +81,9 @@ const char* name(LocalisationState state) {
 }
 
 Localiser::Localiser(const OccupancyMap& map, const LocaliserConfig& config)
-    : map_(map), config_(config), revision_(map.revision()), threads_(config.threads) {}
+    : map_(map), config_(config), revision_(map.revision()), threads_(config.threads) {
+  check(config.matcher.scan);
+}
 
 Localiser::~Localiser() = default;
 

@@ -130,6 +130,7 @@ class Localiser {
   Localisation locate_at(const Cloud& cloud, const Tilt& tilt, const Locate& locate);
   Localisation locate_tilted(const Cloud& cloud, const KnownTilt& known,
                              const std::optional<Pose2>& expected, const Locate& locate);
+  MatchPoints spatial_points(const Cloud& cloud) const;
   bool jumps(const Localisation& found) const;
   void weigh_floors(const MatchPoints& points, Localisation& result);
   struct RefinedTilt {

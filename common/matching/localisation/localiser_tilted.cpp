@@ -77,7 +77,7 @@ void Localiser::believe(Belief belief) {
 
 Localisation Localiser::locate_at(const Cloud& cloud, const Tilt& tilt, const Locate& locate) {
   const Cloud level = moved(to_level(tilt), cloud);
-  Localisation result = locate(PreparedScan(level, config_.matcher.scan));
+  Localisation result = locate(PreparedScan(level, config_.matcher.scan, tilt.z_m));
   for (PoseMode& mode : result.modes) mode.tilt = tilt;
   return result;
 }
@@ -85,7 +85,7 @@ Localisation Localiser::locate_at(const Cloud& cloud, const Tilt& tilt, const Lo
 Localisation Localiser::locate_tilted(const Cloud& cloud, const KnownTilt& known,
                                       const std::optional<Pose2>& expected, const Locate& locate) {
   if (map_.empty()) return locate_at(cloud, Levelling::of_origin(known), locate);
-  const MatchPoints points = PreparedScan(cloud, config_.matcher.scan).spatial_points();
+  const MatchPoints points = spatial_points(cloud);
   if (expected) {
     Belief before = belief();
     Localisation result =
@@ -103,6 +103,13 @@ Localisation Localiser::locate_tilted(const Cloud& cloud, const KnownTilt& known
   Localisation result = located_anywhere(cloud, points, known, locate);
   if (result.tracking()) floor_belief_.clear();
   return result;
+}
+
+// At all heights: it is the floor that tells height, roll and pitch.
+MatchPoints Localiser::spatial_points(const Cloud& cloud) const {
+  ScanConfig config = config_.matcher.scan;
+  config.match_heights_m.clear();
+  return PreparedScan(cloud, config).spatial_points();
 }
 
 // Whether it was found at a height that the robot's way does not lead to.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "voxlist/matching/scan/flat_surfaces.h"
 #include "voxlist/matching/scan/lonely_points.h"
@@ -77,6 +78,17 @@ std::vector<std::uint32_t> within_range(const Cloud& cloud, double max_range_m) 
   return in_range;
 }
 
+std::vector<std::uint32_t> within_heights(std::vector<std::uint32_t> in_range, const Cloud& cloud,
+                                          const ScanConfig& config, double floor_z_m) {
+  if (config.match_heights_m.empty()) return in_range;
+  const auto low = static_cast<float>(floor_z_m + config.match_heights_m[0]),
+             high = static_cast<float>(floor_z_m + config.match_heights_m[1]);
+  std::erase_if(in_range, [&](std::uint32_t i) {
+    return cloud.points[i].z() < low || cloud.points[i].z() > high;
+  });
+  return in_range;
+}
+
 // About every k-th of n numbers, at most `most`.
 std::vector<std::size_t> spread_numbers(std::size_t n, std::size_t most) {
   const std::size_t kept = std::min(n, most);
@@ -116,8 +128,17 @@ const Part& kept(std::optional<Part>& part, const Make& make) {
 
 }  // namespace
 
-PreparedScan::PreparedScan(const Cloud& cloud, const ScanConfig& config)
-    : cloud_(cloud), config_(config), in_range_(within_range(cloud, config.max_range_m)) {}
+void check(const ScanConfig& config) {
+  const std::vector<double>& band = config.match_heights_m;
+  if (!band.empty() && (band.size() != 2 || band[0] >= band[1]))
+    throw std::invalid_argument("match_heights_m must be [lowest, highest], or [] for all heights");
+}
+
+PreparedScan::PreparedScan(const Cloud& cloud, const ScanConfig& config, double floor_z_m)
+    : cloud_(cloud),
+      config_(config),
+      in_range_(within_heights(within_range(cloud, config.max_range_m), cloud, config, floor_z_m)) {
+}
 
 double PreparedScan::reach_m() const {
   double reach_m = kShortestReach_m;

@@ -19,21 +19,32 @@ struct ScanConfig {
   double max_range_m = 60.0;
   /// Most points that a refinement uses. Changes speed, and little else.
   int refine_points = 4000;
+  /// Lowest and highest point (m above the floor) that takes part; empty: all do. A crowd hides
+  /// walls and furniture, and leaves alone what is above its heads.
+  std::vector<double> match_heights_m{};
 
   template <class Visitor>
   void visit(Visitor& v) {
     v("max_range_m", max_range_m, "points farther away take no part in matching", 1.0, 500.0);
     v("refine_points", refine_points, "most points that a refinement uses: speed", 50, 100000);
+    v("match_heights_m", match_heights_m,
+      "[lowest, highest] point above the floor that takes part in matching, such as [1.9, 4.0] in "
+      "crowds; [] for all",
+      -100.0, 100.0);
   }
 };
+
+/// Throws std::invalid_argument where match_heights_m is no band.
+void check(const ScanConfig& config);
 
 /// One cloud with all that matching needs of it: made once for each cloud, and handed through. One
 /// routine thins it, to one point of each cube (thinning.h); each part is made when it is first
 /// asked for, and then kept. The cloud must outlive it. Use from one thread.
 class PreparedScan {
  public:
-  explicit PreparedScan(const Cloud& cloud, const ScanConfig& config = {});
-  PreparedScan(Cloud&&, const ScanConfig& = {}) = delete;
+  /// `floor_z_m`: the floor's height in the cloud's frame, for match_heights_m.
+  explicit PreparedScan(const Cloud& cloud, const ScanConfig& config = {}, double floor_z_m = 0.0);
+  PreparedScan(Cloud&&, const ScanConfig& = {}, double = 0.0) = delete;
 
   const Cloud& cloud() const { return cloud_; }
 
@@ -60,8 +71,8 @@ class PreparedScan {
   /// the edge.
   std::vector<Eigen::Vector3f> filter_points() const;
 
-  /// Indices of the cloud's points that are within range and in the voxels' lattice. None where a
-  /// lid covers the sensor: all points within 0.5 m.
+  /// Indices of the cloud's points that are within range and the band of heights, and in the
+  /// voxels' lattice. None where a lid covers the sensor: all points within 0.5 m.
   const std::vector<std::uint32_t>& in_range() const { return in_range_; }
 
   /// Those of in_range() that have other points about them: a search of the whole map asks about no

@@ -25,6 +25,7 @@ struct LocaliseOptions {
   std::filesystem::path config;
   PrefixOption prefix;
   std::optional<TiltUse> tilt;
+  std::vector<double> match_heights_m;
 };
 
 // One scan's answer, and what it cost.
@@ -101,6 +102,8 @@ std::string summary(const std::vector<Located>& results) {
 int localise(const LocaliseOptions& options, Console& console) {
   DeskSettings settings = read_settings(options.config);
   if (options.tilt) settings.localiser.tilt = *options.tilt;
+  if (!options.match_heights_m.empty())
+    settings.localiser.matcher.scan.match_heights_m = options.match_heights_m;
   FreshFile file(options.result);
   const StoredMap map = read_map(options.map, settings.mapper, console);
   matching::Localiser localiser(map.builder.map(), settings.localiser);
@@ -129,6 +132,7 @@ void add_localise(CLI::App& program, Command& chosen) {
   command->add_option("--config", options->config, "the robot's settings (services/robot.toml)");
   options->prefix.add_to(*command);
   add_tilt(*command, options->tilt);
+  add_match_heights(*command, options->match_heights_m);
   command->footer(
       "Example:\n"
       "  voxlist localise hall_map second_visit -o result.csv");

@@ -73,6 +73,14 @@ void add_tilt(CLI::App& command, std::optional<TiltUse>& tilt) {
       ->transform(CLI::CheckedTransformer(names, CLI::ignore_case));
 }
 
+void add_match_heights(CLI::App& command, std::vector<double>& heights_m) {
+  command
+      .add_option("--match-heights", heights_m,
+                  "lowest and highest point in m above the floor that takes part in matching, such "
+                  "as 1.9 4 in a crowd (match_heights_m in [localiser])")
+      ->expected(2);
+}
+
 void MakingOptions::add_to(CLI::App& command) {
   command.add_option("--config", config, "the robot's settings (services/robot.toml)");
   prefix.add_to(command);
@@ -87,6 +95,7 @@ void MakingOptions::add_to(CLI::App& command) {
   command.add_option("--threads", threads, "most threads; the map does not depend on it")
       ->check(CLI::Range(1, 1024));
   add_tilt(command, tilt);
+  add_match_heights(command, match_heights_m);
 }
 
 DeskSettings MakingOptions::settings() const {
@@ -98,6 +107,7 @@ DeskSettings MakingOptions::settings() const {
   if (carve) settings.mapper.carve = true;
   if (threads > 0) settings.localiser.threads = threads;
   if (tilt) settings.localiser.tilt = *tilt;
+  if (!match_heights_m.empty()) settings.localiser.matcher.scan.match_heights_m = match_heights_m;
   return settings;
 }
 

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "voxlist/adapter/adapter_config.h"
 #include "voxlist/mapping/map_builder.h"
@@ -53,6 +54,10 @@ scanner::CloudAssemblerConfig read_scanner_settings(const std::filesystem::path&
 /// Adds --tilt, which overrides that of the settings. `tilt` must outlive the command.
 void add_tilt(CLI::App& command, std::optional<TiltUse>& tilt);
 
+/// Adds --match-heights, which overrides those of the settings where it is given. `heights_m` must
+/// outlive the command.
+void add_match_heights(CLI::App& command, std::vector<double>& heights_m);
+
 /// Options of the commands that make maps.
 struct MakingOptions {
   std::filesystem::path config;
@@ -62,6 +67,7 @@ struct MakingOptions {
   bool carve = false;
   int threads = 0;
   std::optional<TiltUse> tilt;
+  std::vector<double> match_heights_m;
 
   /// Adds them to a command. They must outlive it.
   void add_to(CLI::App& command);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "tests/matching/synthetic_room.h"
 
@@ -110,6 +111,28 @@ TEST(PreparedScan, ReachesAsFarAsMostOfItsPoints) {
     cloud.points.emplace_back(i < 95 ? 20.F : 50.F, 0.01F * float(i), 1.F);
   EXPECT_EQ(PreparedScan(cloud).reach_m(), 24.0);
   EXPECT_EQ(PreparedScan(cloud, {.max_range_m = 22.0}).reach_m(), 22.0);
+}
+
+TEST(PreparedScan, HasOnlyPointsOfTheBandOfHeightsAboveTheFloor) {
+  const Cloud cloud = floor_and_wall();
+  const PreparedScan scan(cloud, {.match_heights_m = {1.0, 1.5}}, 0.2);
+  ASSERT_GT(scan.in_range().size(), 1000U);
+  for (const std::uint32_t i : scan.in_range()) {
+    EXPECT_GE(cloud.points[i].z(), 1.2F);
+    EXPECT_LE(cloud.points[i].z(), 1.7F);
+  }
+  for (const ScanRay& ray : scan.near_rays()) EXPECT_GE(ray.end.z(), 1.2F);
+  for (const auto& p : scan.points().points) EXPECT_GE(p.z(), 1.2F);
+  EXPECT_EQ(PreparedScan(cloud, {.match_heights_m = {-1.0, 9.0}}).in_range().size(),
+            PreparedScan(cloud).in_range().size());
+}
+
+TEST(PreparedScan, RefusesABandThatIsNone) {
+  for (const std::vector<double>& band :
+       {std::vector{1.0}, {2.0, 1.0}, {1.0, 1.0}, {1.0, 2.0, 3.0}})
+    EXPECT_THROW(check(ScanConfig{.match_heights_m = band}), std::invalid_argument);
+  EXPECT_NO_THROW(check(ScanConfig{.match_heights_m = {1.0, 2.0}}));
+  EXPECT_NO_THROW(check(ScanConfig{}));
 }
 
 TEST(PreparedScan, OfNothingHasNothing) {
