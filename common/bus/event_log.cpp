@@ -211,6 +211,10 @@ void EventLogWriter::write(const std::string& channel_name, std::int64_t utime_u
   }
 }
 
+void EventLogWriter::flush() {
+  if (file_ && std::fflush(file_.get()) != 0) fail("write log");
+}
+
 void EventLogWriter::close() {
   if (file_ && std::fclose(file_.release()) != 0) fail("write log");
 }

@@ -100,6 +100,10 @@ class EventLogWriter {
     write(channel.name, utime_us, bytes);
   }
 
+  /// Hands all events to the system: they are in the file even if this process is killed. Throws as
+  /// write() does.
+  void flush();
+
   /// Writes what is still in memory, and closes. Throws as write() does: without it errors at the
   /// end go unseen.
   void close();

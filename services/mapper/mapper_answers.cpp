@@ -63,7 +63,6 @@ std::string MapperService::edit(const bus::EditWish& wish) {
   }
   const std::int64_t before = version();
   if (std::string why = keyframes_.write_edits(edits); !why.empty()) return why;
-  apart_.end();
   builder_.edit(std::move(edits));
   send_change(before);
   return {};

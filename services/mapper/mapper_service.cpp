@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <voxlist/health_t.hpp>
 #include <voxlist/localisation_t.hpp>
@@ -52,7 +53,7 @@ constexpr std::int64_t kRivalGone_us = 3 * kSecond_us;
 // reach.
 constexpr double kDrive_m = bus::kMapReach_m - 1000.0;
 
-// Clouds of before the robot was found that are placed after each cloud.
+// Clouds that were apart and get their place after each cloud.
 constexpr int kApartAtOnce = 4;
 
 // An id that no other map has: the time when it was begun.
@@ -78,6 +79,21 @@ std::optional<ToldPose> pose_of(const localisation_t& message) {
                   {tilt[0], wrap_angle(tilt[1]), wrap_angle(tilt[2])}};
 }
 
+// What the localiser told of a cloud.
+matching::Localisation told(const localisation_t& message) {
+  matching::Localisation found;
+  found.utime_us = message.utime;
+  found.state = static_cast<matching::LocalisationState>(message.state);
+  found.confidence = message.modes.empty() ? 0.0 : message.confidence;
+  found.searched_whole_map = message.searched_whole_map;
+  for (const pose_mode_t& told : message.modes) {
+    matching::PoseMode& mode = found.modes.emplace_back();
+    mode.T_map_base = {told.pose[0], told.pose[1], wrap_angle(told.pose[2])};
+    for (int i = 0; i < 9; ++i) mode.covariance(i / 3, i % 3) = told.covariance[i];
+  }
+  return found;
+}
+
 mapping::MapBuilderConfig with_free_space(mapping::MapBuilderConfig config) {
   config.count_free = true;
   return config;
@@ -94,7 +110,7 @@ MapperService::MapperService(bus::Bus& bus, bus::Health& health, const MapperSer
                  builder_.poses(),
                  [this](mapping::Keyframe keyframe) { restore(std::move(keyframe)); }),
       loops_(health, config.close_loops, with_free_space(config.builder)),
-      apart_(health, builder_.poses().empty() ? "" : keyframes_.folder(), config.tilt),
+      apart_(health, keyframes_.folder(), !builder_.poses().empty(), config.tilt, config.builder),
       moves_(keyframes_.moves()),
       map_id_(keyframes_.map_id()),
       is_extending_(config.extend),
@@ -141,7 +157,7 @@ void MapperService::take_localisation(const localisation_t& message) {
   const std::int64_t before = version();
   decide(message);
   send_change(before);
-  join_apart();
+  join_apart(kApartAtOnce);
 }
 
 // A cloud is decided on once: who speaks of it again, and otherwise, is not heard.
@@ -150,13 +166,13 @@ void MapperService::decide(const localisation_t& message) {
   auto cloud = take_waiting_cloud(message.utime);
   const auto pose = pose_of(message);
   if (!pose) {
-    if (cloud && is_extending_) apart_.add(std::move(*cloud), odometry_.at(message.utime));
+    if (cloud && is_extending_) apart_.lost(*cloud, odometry_.at(message.utime), told(message));
     return;
   }
   if (version() > 0) confirm();
   if (!takes(pose->tilt)) return;
   path_.add({message.utime, pose->planar}, pose->tilt);
-  note_found(message, pose->planar);
+  if (cloud) apart_.found(*cloud, odometry_.at(message.utime), told(message));
   if (!is_extending_ || !keyframes_.has_room()) return;
   if (!cloud) return health_.count("LOCALISATION/cloud_missing");
   if (builder_.wants(*cloud, pose->planar, pose->tilt)) {
@@ -165,23 +181,15 @@ void MapperService::decide(const localisation_t& message) {
   }
 }
 
-// Also while nothing is added: what comes from now on has its place.
-void MapperService::note_found(const localisation_t& message, const Pose2& pose) {
-  if (!apart_.is_waiting()) return;
-  UncertainPose found{pose};
-  for (int i = 0; i < 9; ++i) found.covariance(i / 3, i % 3) = message.modes.front().covariance[i];
-  apart_.found(message.utime, odometry_.at(message.utime), found, builder_.map());
-}
-
 // Each is a version of its own: the next one is matched with it.
-void MapperService::join_apart() {
-  for (int i = 0; i < kApartAtOnce && is_extending_ && keyframes_.has_room(); ++i) {
+void MapperService::join_apart(int at_most) {
+  for (int i = 0; i < at_most && is_extending_ && keyframes_.has_room(); ++i) {
     auto placed = apart_.place_next();
-    if (!placed || !builder_.wants(placed->cloud, placed->T_map_base, placed->tilt)) continue;
+    if (!placed) return;
+    if (!builder_.wants(placed->cloud, to_pose2(placed->pose), tilt_of(placed->pose))) continue;
     const std::int64_t before = version();
-    const Pose3 pose = to_pose3(placed->T_map_base, placed->tilt);
-    path_.restore({placed->cloud.utime_us, pose});
-    add(std::move(placed->cloud), pose, placed->T_odom_base);
+    path_.restore({placed->cloud.utime_us, placed->pose});
+    add(std::move(placed->cloud), placed->pose, placed->T_odom_base);
     send_change(before);
   }
 }
@@ -212,7 +220,6 @@ std::optional<Cloud> MapperService::take_waiting_cloud(std::int64_t utime_us) {
 
 void MapperService::add(Cloud cloud, const Pose3& pose, const std::optional<Pose2>& T_odom_base) {
   keyframes_.add(builder_.add({pose, std::move(cloud)}));
-  apart_.map_changed(builder_.changed_blocks());
   const StampedPose3& newest = builder_.poses().back();
   loops_.add(newest.utime_us, to_pose2(newest.pose), T_odom_base);
   health_.count("keyframes");
@@ -234,11 +241,11 @@ void MapperService::recall_graph() {
 // On the disk first: a mapper that is started again goes on with what listeners have.
 void MapperService::move(ClosedMap closed) {
   if (!keyframes_.write_graph({map_id_, moves_ + 1, closed.keyframes, closed.edges})) return;
-  apart_.end();
   const std::int64_t before = version();
   const std::vector<StampedPose3> poses = builder_.poses();
   builder_.move_to(std::move(closed.builder), closed.T_new_old);
   path_.move(poses, builder_.poses());
+  apart_.move(closed.T_new_old);
   loops_.accept(std::move(closed.keyframes));
   ++moves_;
   T_new_old_ = closed.T_new_old;
@@ -329,6 +336,7 @@ void MapperService::save() {
 }
 
 void MapperService::stop() {
+  join_apart(std::numeric_limits<int>::max());
   while (is_extending_)
     if (auto closed =
             loops_.finish([this] { return keyframes_.open_again(); }, config_.last_loops_s))

@@ -75,7 +75,8 @@ struct MapperServiceConfig {
 /// vanishes costs nothing either: the map goes on in a fresh one beside it. Where the robot came
 /// back to ground of long before, keyframes move to where all scans agree: a new version of the
 /// map, which goes out as a change once it is whole and the graph is on the disk. So does an edit
-/// by hand (MAP_EDIT), once it is on the disk.
+/// by hand (MAP_EDIT), once it is on the disk. Where the robot has left the map, mapping goes on
+/// apart, until that has its place in the map.
 class MapperService {
  public:
   /// Loads the folder's map. Throws FileError when there is one that cannot be read, when no folder
@@ -101,8 +102,7 @@ class MapperService {
   void decide(const localisation_t& message);
   void confirm();
   bool takes(const Tilt& tilt);
-  void note_found(const localisation_t& message, const Pose2& pose);
-  void join_apart();
+  void join_apart(int at_most);
   void add(Cloud cloud, const Pose3& pose, const std::optional<Pose2>& T_odom_base);
   void recall_graph();
   void move(ClosedMap closed);

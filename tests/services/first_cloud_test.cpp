@@ -1,26 +1,13 @@
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cmath>
-#include <optional>
 #include <vector>
-#include <voxlist/localisation_t.hpp>
-#include <voxlist/map_request_t.hpp>
-#include <voxlist/map_update_t.hpp>
-#include <voxlist/pointcloud_t.hpp>
 
-#include "services/localiser/localiser_service.h"
-#include "services/mapper/mapper_service.h"
+#include "tests/services/localiser_and_mapper.h"
 #include "tests/stored_map.h"
-#include "tests/temporary_folder.h"
-#include "voxlist/bus/bus.h"
-#include "voxlist/bus/convert.h"
-#include "voxlist/bus/health.h"
 
 namespace voxlist::services {
 namespace {
-
-constexpr std::int64_t kStart_us = 1'700'000'000'000'000;
 
 // A room as it is seen x_m ahead of its middle.
 Cloud room(float x_m) {
@@ -48,71 +35,8 @@ Cloud covered() {
   return cloud;
 }
 
-// A service on a bus of its own.
-template <class Service, class Config>
-struct Side {
-  Side(const char* name, const Config& config) : health(name), service(bus, health, config) {}
-
-  bus::Bus bus{{.url = "memq://", .prefix = ""}};
-  bus::Health health;
-  Service service;
-};
-
-// Localiser and mapper, and a network between them.
-class FirstCloud : public testing::Test {
+class FirstCloud : public LocaliserAndMapper {
  protected:
-  FirstCloud() {
-    MapperServiceConfig config;
-    config.folder = folder_.string();
-    mapper_.emplace("mapper", config);
-    mapper_->bus.subscribe(bus::kMapUpdate, [this](const map_update_t& m) {
-      localiser_->bus.publish(bus::kMapUpdate, m);
-    });
-    start_localiser();
-  }
-
-  void start_localiser() {
-    localiser_.emplace("localiser", LocaliserServiceConfig{});
-    localiser_->bus.subscribe(bus::kLocalisation, [this](const localisation_t& m) {
-      answers_.push_back(m);
-      mapper_->bus.publish(bus::kLocalisation, m);
-    });
-    localiser_->bus.subscribe(bus::kMapRequest, [this](const map_request_t& m) {
-      mapper_->bus.publish(bus::kMapRequest, m);
-    });
-    run(0.5);
-  }
-
-  void run(double seconds) {
-    for (const std::int64_t end_us = now_us_ + std::llround(seconds * 1e6); now_us_ < end_us;) {
-      now_us_ += 10'000;
-      localiser_->bus.handle(std::chrono::milliseconds(0));
-      localiser_->service.tick(now_us_);
-      mapper_->bus.handle(std::chrono::milliseconds(0));
-      mapper_->service.tick(now_us_);
-    }
-  }
-
-  // Returns its utime.
-  std::int64_t send(Cloud cloud) {
-    cloud.utime_us = now_us_;
-    for (bus::Bus* bus : {&localiser_->bus, &mapper_->bus})
-      bus->publish(bus::kCloud, bus::to_message(cloud, "base", seq_));
-    ++seq_;
-    run(1.0);
-    return cloud.utime_us;
-  }
-
-  const localisation_t* answer_to(std::int64_t utime_us) const {
-    const localisation_t* found = nullptr;
-    for (const localisation_t& answer : answers_) {
-      if (answer.utime != utime_us) continue;
-      EXPECT_EQ(found, nullptr) << "answered twice";
-      found = &answer;
-    }
-    return found;
-  }
-
   bool is_tracking(std::int64_t utime_us, double x_m) const {
     const localisation_t* answer = answer_to(utime_us);
     return answer != nullptr && answer->state == localisation_t::STATE_TRACKING &&
@@ -123,13 +47,6 @@ class FirstCloud : public testing::Test {
     const localisation_t* answer = answer_to(utime_us);
     return answer != nullptr && answer->state != localisation_t::STATE_TRACKING;
   }
-
-  const test::TemporaryFolder folder_;
-  std::optional<Side<LocaliserService, LocaliserServiceConfig>> localiser_;
-  std::optional<Side<MapperService, MapperServiceConfig>> mapper_;
-  std::vector<localisation_t> answers_;
-  std::int64_t now_us_ = kStart_us;
-  std::int32_t seq_ = 0;
 };
 
 TEST_F(FirstCloud, IsGivenUpWhenTheNextTwoFitEachOtherAlone) {

@@ -14,7 +14,7 @@ namespace {
 // one of 4 x 4 is enough.
 constexpr double kNear_m = 10.0;
 constexpr float kSeenFrom_m = 2.0F;
-constexpr std::int32_t kOneOf = 3;
+constexpr std::uint64_t kOneOf16 = 0x00000011'00000011;
 
 // A search finds what is lifted by less than this (m).
 constexpr double kSameHeight_m = 0.1;
@@ -30,16 +30,28 @@ constexpr double kFlat_rad = 2.0 * kRadPerDeg, kSlope_rad = 4.0 * kRadPerDeg;
 // farther away.
 constexpr double kBelow_m = 1.5, kAbove_m = 1.0;
 
+VoxelBlock one_of_16(VoxelBlock block) {
+  for (std::uint64_t& word : block) word &= kOneOf16;
+  return block;
+}
+
 // What is about a place of the map at a height, in that place's frame.
 Cloud cloud_about(const VoxelMap& map, const Pose2& place, double height_m) {
   const Pose3 T_place_map = to_pose3(place, {height_m, 0.0, 0.0}).inverse();
   Cloud cloud;
-  map.for_each_voxel([&](const Voxel& voxel) {
-    if ((voxel.x & kOneOf) != 0 || (voxel.y & kOneOf) != 0) return;
+  const auto add = [&](const Voxel& voxel) {
     const Eigen::Vector3d p = T_place_map * center(voxel, map.resolution_m());
     if (p.z() < -kBelow_m || p.z() > kAbove_m || p.head<2>().norm() >= kNear_m) return;
     cloud.points.push_back(p.cast<float>());
-  });
+  };
+  // Most of a map's blocks are farther away.
+  const double edge_m = kBlockEdge * map.resolution_m();
+  for (std::size_t i = 0; i < map.block_count(); ++i) {
+    const Voxel& block = map.block_position(i);
+    const Eigen::Vector2d off(block.x * edge_m - place.x_m, block.y * edge_m - place.y_m);
+    if (off.norm() < kNear_m + 2.0 * edge_m)
+      VoxelMap::visit_block(block, one_of_16(map.block(i)), add);
+  }
   cloud.origins.assign(cloud.points.size(), {0.0F, 0.0F, kSeenFrom_m});
   return cloud;
 }

@@ -2,142 +2,203 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <exception>
+#include <string>
 #include <utility>
-#include <voxlist/pointcloud_t.hpp>
-#include <voxlist/pose_t.hpp>
 
-#include "voxlist/bus/convert.h"
-#include "voxlist/bus/event_log.h"
 #include "voxlist/bus/health.h"
-#include "voxlist/geometry/angle.h"
-#include "voxlist/io/files/keep_aside.h"
+#include "voxlist/service/stop.h"
 
 namespace voxlist::services {
 namespace {
 
-// Most bytes that are kept: of a robot that is not found for long, the rest is a drive of its own.
+using mapping::ScanMoment;
+using matching::Localisation;
+
+// Most bytes of a piece that are kept: what comes then is of another piece.
 constexpr std::size_t kMostBytes = 256'000'000;
-// A cloud is kept after such a way or turn (m, rad): what is tracked then.
-constexpr double kMoved_m = 0.3, kTurned_rad = 12.0 * kRadPerDeg;
-// After so many clouds in a row that fit nowhere, those before them are left alone: the robot was
-// carried, or the clouds show nothing.
-constexpr int kMostMisses = 5;
+// A map of fewer clouds may be of a bad one: the localiser sees to that (OriginDoubt).
+constexpr std::int64_t kFewest = 2;
+// Clouds that fit both are asked from places so far (m) apart: what a cloud shows changes with the
+// place, and neighbours err together. As far as where two maps are merged.
+constexpr double kEach_m = 2.0;
+// What one such cloud says is taken for no surer than this, however well it is tracked: it takes
+// two.
+constexpr double kSurest = 0.9999;
 
 std::size_t bytes_of(const Cloud& cloud) {
   return (cloud.points.size() + cloud.origins.size()) * sizeof(Eigen::Vector3f);
 }
 
+const Pose2& pose_of(const Localisation& found) { return found.modes.front().T_map_base; }
+
+// One thread: the robot's other services go on beside it.
+matching::LocaliserConfig localiser_with(TiltUse tilt) {
+  matching::LocaliserConfig config;
+  config.tilt = tilt;
+  config.threads = 1;
+  return config;
+}
+
 }  // namespace
 
-ApartSession::ApartSession(bus::Health& health, const std::filesystem::path& folder, TiltUse tilt)
-    : health_(health), folder_(folder), tilt_(tilt) {
-  if (folder_.empty()) return;
-  if (keep_recording_of_before()) state_ = State::kWaiting;
+ApartSession::ApartSession(bus::Health& health, const std::filesystem::path& folder, bool is_saved,
+                           TiltUse tilt, const mapping::MapBuilderConfig& builder)
+    : health_(health),
+      localiser_(localiser_with(tilt)),
+      builder_(builder),
+      is_saved_(is_saved),
+      file_(health, folder) {
+  if (const auto left = file_.left_by_another()) take_up(*left);
 }
 
 ApartSession::~ApartSession() = default;
 
-bool ApartSession::keep_recording_of_before() const {
-  const std::filesystem::path file = folder_ / kApartFile;
-  std::error_code error;
-  if (exists(file)) rename(file, io::free_name(file, ""), error);
-  return !error;
+// The file goes where all of its clouds hang together, and so are in a new one.
+void ApartSession::take_up(const std::filesystem::path& left) try {
+  const std::vector<ApartCloud> clouds = read_apart_file(left);
+  for (const ApartCloud& seen : clouds) {
+    if (service::stop_requested()) return;
+    const ScanMoment now{seen.cloud.utime_us, seen.T_odom_base};
+    piece_ ? go_on(seen.cloud, now) : begin(seen.cloud, now);
+  }
+  if (kept_.size() == clouds.size()) file_.remove_left(left);
+  if (piece_) piece_->localiser().forget();  // nobody knows where the robot is now
+  in_piece_.reset();
+} catch (const std::exception&) {
+  health_.count("apart/not_read");
 }
 
-void ApartSession::add(Cloud cloud, const std::optional<Pose2>& T_odom_base) {
-  if (!is_waiting() || !has_moved(T_odom_base)) return;
-  bytes_ += bytes_of(cloud);
+void ApartSession::lost(const Cloud& cloud, const std::optional<Pose2>& T_odom_base,
+                        const Localisation& in_map) {
+  if (!file_.is_possible() || !joining_.empty()) return;
+  const ScanMoment now{cloud.utime_us, T_odom_base};
+  if (piece_)
+    go_on(cloud, now);
+  else if (has_left_map(now, in_map))
+    begin(cloud, now);
+}
+
+// Where the robot was never found in a saved map, it may be anywhere.
+bool ApartSession::has_left_map(const ScanMoment& now, const Localisation& in_map) const {
+  if (found_ == 0) return is_saved_;
+  if (found_ < kFewest && !is_saved_) return false;
+  return !mapping::is_followed(in_map) &&
+         !mapping::is_near(in_map_, now, in_map, localiser_.max_speed_mps);
+}
+
+// Of a piece of one cloud, that may be the bad one.
+bool ApartSession::is_left_by(const ScanMoment& now, const Localisation& found) const {
+  if (mapping::is_followed(found)) return false;
+  return piece_->trajectory().size() < 2 ||
+         !mapping::is_near(*in_piece_, now, found, localiser_.max_speed_mps);
+}
+
+void ApartSession::go_on(const Cloud& cloud, const ScanMoment& now) {
+  const Localisation found = look(cloud, now);
+  if (found.tracking())
+    take(cloud, found, now);
+  else if (!piece_)
+    begin(cloud, now);
+}
+
+// What the piece says of a cloud; if the robot has left it, the piece is over.
+Localisation ApartSession::look(const Cloud& cloud, const ScanMoment& now) {
+  const Localisation found = piece_->localiser().localise(cloud, now.T_odom_base);
+  if (found.tracking() || !in_piece_) in_piece_ = now;
+  if (!found.tracking() && is_left_by(now, found)) leave();
+  return found;
+}
+
+// The cloud is the origin of a piece, unless it is blind.
+void ApartSession::begin(const Cloud& cloud, const ScanMoment& now) {
+  piece_ = std::make_unique<mapping::Piece>(
+      localiser_, mapping::MapBuilder(builder_),
+      [this](const mapping::Keyframe& keyframe, const std::optional<Pose2>& T_odom_base) {
+        keep({keyframe.cloud, keyframe.T_map_base, T_odom_base});
+      });
+  const Localisation found = piece_->localiser().localise(cloud, now.T_odom_base);
+  if (!found.tracking()) return end_piece();
+  in_piece_ = now;
+  take(cloud, found, now);
+}
+
+void ApartSession::take(const Cloud& cloud, const Localisation& found, const ScanMoment& now) {
   if (bytes_ > kMostBytes) return health_.count("apart/no_room");
-  kept_.push_back({std::move(cloud), T_odom_base});
-  record(kept_.back());
+  piece_->take(cloud, found.modes.front(), now.T_odom_base);
+}
+
+// A piece of one cloud may be of a bad one: it is written with the second.
+void ApartSession::keep(ApartCloud keyframe) {
+  bytes_ += bytes_of(keyframe.cloud);
+  kept_.push_back(std::move(keyframe));
+  if (kept_.size() == 2) file_.write(kept_.front());
+  if (kept_.size() > 1) file_.write(kept_.back());
   tell();
 }
 
-bool ApartSession::has_moved(const std::optional<Pose2>& T_odom_base) const {
-  if (kept_.empty() || !T_odom_base || !kept_.back().T_odom_base) return true;
-  const Pose2& last = *kept_.back().T_odom_base;
-  return distance_m(last, *T_odom_base) >= kMoved_m || turn_rad(last, *T_odom_base) >= kTurned_rad;
+// Nothing is added to the piece meanwhile: the map has it.
+void ApartSession::found(const Cloud& cloud, const std::optional<Pose2>& T_odom_base,
+                         const Localisation& in_map) {
+  in_map_ = {cloud.utime_us, T_odom_base};
+  ++found_;
+  if (!piece_) return;
+  const Localisation in_piece = look(cloud, in_map_);
+  if (!in_piece.tracking()) return;
+  const Pose2 &T_map_base = pose_of(in_map), &T_piece_base = pose_of(in_piece);
+  if (asked_at_ && distance_m(*asked_at_, T_piece_base) < kEach_m) return;
+  asked_at_ = T_piece_base;
+  const double confidence = std::min({in_map.confidence, in_piece.confidence, kSurest});
+  if (joint_.add(nullptr, T_map_base, T_piece_base, confidence))
+    join(T_map_base * T_piece_base.inverse());
 }
 
-// What the disk does not take is in memory all the same.
-void ApartSession::record(const Kept& kept) try {
-  if (!recording_)
-    recording_ = std::make_unique<bus::EventLogWriter>((folder_ / kApartFile).string());
-  const std::int64_t utime_us = kept.cloud.utime_us;
-  if (kept.T_odom_base)
-    recording_->write(bus::kOdometry, utime_us,
-                      bus::to_message(StampedPose2{utime_us, *kept.T_odom_base}));
-  recording_->write(bus::kCloud, utime_us,
-                    bus::to_message(kept.cloud, "base", static_cast<std::int32_t>(kept_.size())));
-} catch (const std::exception&) {
-  health_.count("apart/not_recorded");
+void ApartSession::join(const Pose2& T_map_piece) {
+  joining_ = std::move(kept_);
+  for (ApartCloud& keyframe : joining_) keyframe.pose = to_pose3(T_map_piece) * keyframe.pose;
+  end_piece();
 }
 
-void ApartSession::found(std::int64_t utime_us, const std::optional<Pose2>& T_odom_base,
-                         const UncertainPose& pose, const OccupancyMap& map) {
-  if (!is_waiting()) return;
-  if (kept_.empty()) return end();
-  state_ = State::kJoining;
-  matching::LocaliserConfig config;
-  config.tilt = tilt_;
-  config.threads = 1;
-  localiser_ = std::make_unique<matching::Localiser>(map, config);
-  localiser_->start_at(utime_us, T_odom_base, pose);
-  found_us_ = utime_us;
+std::optional<ApartCloud> ApartSession::place_next() {
+  if (joining_.empty()) return std::nullopt;
+  ApartCloud keyframe = std::move(joining_.back());
+  joining_.pop_back();
+  health_.count("apart/joined");
+  if (joining_.empty()) file_.remove();
+  return keyframe;
 }
 
-std::optional<ApartSession::Placed> ApartSession::place_next() {
-  if (state_ != State::kJoining) return std::nullopt;
-  if (kept_.empty() || misses_ == kMostMisses) {
-    end();
-    return std::nullopt;
-  }
-  Kept kept = std::move(kept_.back());
-  kept_.pop_back();
-  const std::int64_t utime_us =
-      std::exchange(kept.cloud.utime_us, 2 * found_us_ - kept.cloud.utime_us);
-  const matching::Localisation located = localiser_->localise(kept.cloud, kept.T_odom_base);
-  kept.cloud.utime_us = utime_us;
-  misses_ = located.tracking() ? 0 : misses_ + 1;
-  health_.count(located.tracking() ? "apart/joined" : "apart/without_place");
-  if (!located.tracking()) {
-    ++without_place_;
-    return std::nullopt;
-  }
-  const matching::PoseMode& mode = located.modes.front();
-  return Placed{std::move(kept.cloud), mode.T_map_base, mode.tilt, kept.T_odom_base};
+void ApartSession::move(const Pose2& T_new_old) {
+  for (ApartCloud& keyframe : joining_) keyframe.pose = to_pose3(T_new_old) * keyframe.pose;
+  joint_.clear();
+  asked_at_.reset();
 }
 
-void ApartSession::map_changed(const ChangedBlocks& changed) {
-  if (localiser_) localiser_->map_changed(changed);
+// The robot is elsewhere: what was mapped is in its recording.
+void ApartSession::leave() {
+  file_.leave();
+  end_piece();
 }
 
-// The recording stays where not all of it is in the map.
-void ApartSession::end() {
-  if (state_ == State::kDone) return;
-  state_ = State::kDone;
-  without_place_ += std::ssize(kept_);
+void ApartSession::end_piece() {
+  piece_.reset();
   kept_.clear();
-  localiser_.reset();
-  recording_.reset();
-  std::error_code ignored;
-  if (without_place_ == 0) std::filesystem::remove(folder_ / kApartFile, ignored);
+  bytes_ = 0;
+  in_piece_.reset();
+  joint_.clear();
+  asked_at_.reset();
   tell();
 }
 
 void ApartSession::tell() const {
-  using HealthState = bus::Health::State;
-  const std::string file = (folder_ / kApartFile).string();
+  health_.gauge("apart_keyframes", static_cast<double>(kept_.size()));
   std::string sentence;
-  if (is_waiting())
-    sentence = fmt::format("the robot was not found in the map yet: {} clouds are kept in {}",
-                           kept_.size(), file);
-  else if (without_place_ > 0)
-    sentence = fmt::format(
-        "{} clouds from before the robot was found have no place in the map: voxlist map {} --into "
-        "it may find one",
-        without_place_, file);
-  health_.raise("apart", is_waiting() ? HealthState::kWarning : HealthState::kOk, sentence);
+  if (kept_.size() > 1)
+    sentence =
+        fmt::format("mapping apart, {} keyframes that have no place in the map yet, kept in {}",
+                    kept_.size(), file_.path().string());
+  health_.raise("apart", bus::Health::State::kWarning, sentence);
 }
 
 }  // namespace voxlist::services

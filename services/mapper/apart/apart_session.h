@@ -1,89 +1,86 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <filesystem>
 #include <memory>
 #include <optional>
-#include <string>
 
+#include "services/mapper/apart/apart_file.h"
 #include "voxlist/geometry/cloud.h"
 #include "voxlist/mapping/map_builder.h"
-#include "voxlist/matching/localisation/localiser.h"
+#include "voxlist/mapping/pieces/leaving.h"
+#include "voxlist/mapping/pieces/piece.h"
+#include "voxlist/mapping/pieces/piece_joint.h"
 
 namespace voxlist::bus {
-class EventLogWriter;
 class Health;
-}  // namespace voxlist::bus
+}
 
 namespace voxlist::services {
 
-/// Name of the recording, in a map's folder, of clouds that have no place in the map yet.
-inline constexpr const char* kApartFile = "apart.lcm";
-
-/// The clouds of a session that began on a saved map, kept apart until the robot is found there:
-/// in memory, and in a recording that `voxlist map --into` reads. Then they are tracked from the
-/// found one backwards, and those that surely fit get their place in the map, as it grows.
+/// Where the robot has left the map, mapping goes on apart: in a piece with a frame of its own,
+/// which is tracked here, until clouds that fit both say surely where it lies in the map. Then its
+/// keyframes get their place there. A session on a saved map is apart until it is found. What never
+/// joins is in recordings beside the map.
 class ApartSession {
  public:
-  /// A session on the saved map of this folder; nothing is kept without one (empty). A recording of
-  /// before is kept under a name of its own.
-  ApartSession(bus::Health& health, const std::filesystem::path& folder, TiltUse tilt);
+  /// A session on the map of this folder; nothing is kept apart without one (empty). `is_saved`:
+  /// the map was there before. A piece that an earlier mapper left in the middle of a drive is
+  /// taken up.
+  ApartSession(bus::Health& health, const std::filesystem::path& folder, bool is_saved,
+               TiltUse tilt, const mapping::MapBuilderConfig& builder);
   ~ApartSession();
 
-  /// Whether clouds without a place are to be kept.
-  bool is_waiting() const { return state_ == State::kWaiting; }
+  /// A cloud has no place in the map, which says this of it.
+  void lost(const Cloud& cloud, const std::optional<Pose2>& T_odom_base,
+            const matching::Localisation& in_map);
 
-  /// A cloud has no place. Where odometry says that the robot has hardly moved, it is not kept.
-  void add(Cloud cloud, const std::optional<Pose2>& T_odom_base);
+  /// A cloud was found in the map.
+  void found(const Cloud& cloud, const std::optional<Pose2>& T_odom_base,
+             const matching::Localisation& in_map);
 
-  /// The robot is found: where it was at a time.
-  void found(std::int64_t utime_us, const std::optional<Pose2>& T_odom_base,
-             const UncertainPose& pose, const OccupancyMap& map);
+  /// Hands out the newest keyframe of a piece that was joined, to be added to the map before the
+  /// next.
+  std::optional<ApartCloud> place_next();
 
-  /// A cloud that has its place now.
-  struct Placed {
-    Cloud cloud;
-    Pose2 T_map_base;
-    Tilt tilt;
-    std::optional<Pose2> T_odom_base;
-  };
-
-  /// Looks at the newest cloud that is left, if any; what surely fits is returned, and to be added
-  /// to the map before the next. It takes as long as localising a cloud does.
-  std::optional<Placed> place_next();
-
-  /// The map of found() has gained or lost something.
-  void map_changed(const ChangedBlocks& changed);
-
-  /// The map of found() goes: what has no place keeps none.
-  void end();
+  /// The map was moved under the robot. `T_new_old`: from the map before to the map since.
+  void move(const Pose2& T_new_old);
 
  private:
-  enum class State { kWaiting, kJoining, kDone };
-
-  struct Kept {
-    Cloud cloud;
-    std::optional<Pose2> T_odom_base;
-  };
-
-  bool keep_recording_of_before() const;
-  bool has_moved(const std::optional<Pose2>& T_odom_base) const;
-  void record(const Kept& kept);
+  void take_up(const std::filesystem::path& left);
+  bool has_left_map(const mapping::ScanMoment& now, const matching::Localisation& in_map) const;
+  void go_on(const Cloud& cloud, const mapping::ScanMoment& now);
+  matching::Localisation look(const Cloud& cloud, const mapping::ScanMoment& now);
+  void begin(const Cloud& cloud, const mapping::ScanMoment& now);
+  void take(const Cloud& cloud, const matching::Localisation& found,
+            const mapping::ScanMoment& now);
+  void keep(ApartCloud keyframe);
+  bool is_left_by(const mapping::ScanMoment& now, const matching::Localisation& found) const;
+  void join(const Pose2& T_map_piece);
+  void leave();
+  void end_piece();
   void tell() const;
 
   bus::Health& health_;
-  const std::filesystem::path folder_;
-  const TiltUse tilt_;
-  State state_ = State::kDone;
-  std::deque<Kept> kept_;  // oldest first
+  const matching::LocaliserConfig localiser_;
+  const mapping::MapBuilderConfig builder_;
+  const bool is_saved_;
+  ApartFile file_;
+  // The last cloud that was found in the map, and how many were since this session began.
+  mapping::ScanMoment in_map_;
+  std::int64_t found_ = 0;
+  // The piece that the robot is in, its keyframes, the oldest first, and its last cloud that fit.
+  std::unique_ptr<mapping::Piece> piece_;
+  std::deque<ApartCloud> kept_;
   std::size_t bytes_ = 0;
-  std::unique_ptr<bus::EventLogWriter> recording_;
-  // Goes backwards in time from when the robot was found.
-  std::unique_ptr<matching::Localiser> localiser_;
-  std::int64_t found_us_ = 0;
-  int misses_ = 0;
-  std::int64_t without_place_ = 0;
+  std::optional<mapping::ScanMoment> in_piece_;
+  // What clouds say that fit map and piece, and where in the piece the last of them was taken.
+  mapping::PieceJoint joint_;
+  std::optional<Pose2> asked_at_;
+  // Keyframes of a piece that has its place, where they are in the map, the oldest first.
+  std::deque<ApartCloud> joining_;
 };
 
 }  // namespace voxlist::services

@@ -18,8 +18,8 @@ constexpr double kLeastSigma_m = 0.02;
 // A localiser in the map that it makes, or in a finished one.
 class Robot {
  public:
-  explicit Robot(const OccupancyMap* finished)
-      : finished_(finished), localiser_(finished ? *finished : own_, one_thread()) {}
+  Robot(const OccupancyMap* finished, TiltUse tilt)
+      : finished_(finished), localiser_(finished ? *finished : own_, one_thread(tilt)) {}
 
   matching::Localisation localise(const ScannedStep& step, DriveClaims& claims) {
     const bool first = !finished_ && own_.empty();
@@ -39,8 +39,9 @@ class Robot {
   Pose2 in_map(const Pose2& T_world_base) const { return T_map_world_ * T_world_base; }
 
  private:
-  static matching::LocaliserConfig one_thread() {
+  static matching::LocaliserConfig one_thread(TiltUse tilt) {
     matching::LocaliserConfig config;
+    config.tilt = tilt;
     config.threads = 1;
     return config;
   }
@@ -138,7 +139,7 @@ void DriveClaims::add(const DriveClaims& other) {
 DriveClaims claims_of(const DriveSpec& spec, int seed, int i, const OccupancyMap* finished,
                       Reliability& reliability, bool list) {
   const std::vector<ScannedStep> steps = scanned_drive(spec, seed, i);
-  Robot robot(finished);
+  Robot robot(finished, spec.tilt);
   DriveClaims claims;
   std::vector<bool> right, wrong;
   for (const ScannedStep& step : steps) {

@@ -88,6 +88,10 @@ std::vector<DriveSpec> all_drives() {
   for (const auto& [wheels, driven] : {kWheels[1], kWheels[3]}) {
     const std::string by = std::string(", ") + driven;
     drives.push_back({.name = "mapped" + by, .wheels = wheels, .mapped = true});
+    drives.push_back({.name = "mapped, tilt refine" + by,
+                      .wheels = wheels,
+                      .mapped = true,
+                      .tilt = TiltUse::kRefine});
     drives.push_back(
         {.name = "mapped, changed" + by, .wheels = wheels, .mapped = true, .changed = true});
     drives.push_back(

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "tests/bench/drives/bad_scans.h"
+#include "voxlist/geometry/tilt.h"
 
 namespace voxlist::bench {
 
@@ -30,7 +31,8 @@ struct DriveSpec {
       false;  ///< in a finished map of the floor; otherwise in the map that the drive makes
   bool changed = false;  ///< furniture was moved since, people stand about, 5 % short returns
   Bad bad = Bad::kNot;
-  int bad_scans = 0;     ///< in a row
+  int bad_scans = 0;                ///< in a row
+  TiltUse tilt = TiltUse::kPlanar;  ///< what the localiser is told of it; the robot stands level
   bool carried = false;  ///< to another room of the mapped floor, and the wheels do not notice
 };
 

@@ -1,4 +1,5 @@
-// A session that begins on a saved map, where the map ends.
+// A session that begins on a saved map, where the map ends; and one that leaves it there.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <map>
@@ -40,20 +41,33 @@ class ApartSessionTest : public testing::Test {
     for (std::size_t i = 1; i <= kFound; ++i) step(live, kMapped - i, 0, true);
   }
 
-  void step(MapperScene& live, std::size_t place, std::size_t carried, bool found) {
-    const mapping::Keyframe seen = seen_from(place + carried, ++second_);
+  // `error`: of the pose that the localiser tells.
+  void step(MapperScene& live, std::size_t place, std::size_t carried, bool found,
+            const Pose2& error = {}) {
+    mapping::Keyframe seen = seen_from(place + carried, ++second_);
     truth_[seen.cloud.utime_us] = drive_.truth[place + carried];
     live.odometry(seen.cloud.utime_us, Pose2{5.0, -3.0, 1.0} * drive_.truth[place]);
+    seen.T_map_base = to_pose3(error) * seen.T_map_base;
     found ? live.drive(seen) : live.drive(seen, localisation_t::STATE_LOST);
   }
 
   std::size_t stored() const { return test::load_map(folder_.string()).keyframes.size(); }
   std::filesystem::path recording() const { return folder_.path() / kApartFile; }
 
+  static std::filesystem::path numbered(const test::TemporaryFolder& folder) {
+    return (folder.path() / kApartFile).string() + "-1";
+  }
+
+  static std::size_t recorded_clouds(const std::filesystem::path& file) {
+    return read_apart_file(file).size();
+  }
+
   // Keyframes of the session, each where it was taken.
-  std::size_t joined() const {
+  std::size_t joined() const { return joined(folder_.string()); }
+
+  std::size_t joined(const std::string& folder) const {
     std::size_t joined = 0;
-    for (const mapping::Keyframe& keyframe : test::load_map(folder_.string()).keyframes) {
+    for (const mapping::Keyframe& keyframe : test::load_map(folder).keyframes) {
       const auto truth = truth_.find(keyframe.cloud.utime_us);
       if (truth == truth_.end()) continue;
       ++joined;
@@ -78,6 +92,14 @@ TEST_F(ApartSessionTest, IsJoinedToTheMapOnceItIsFoundThere) {
   EXPECT_FALSE(exists(recording()));
 }
 
+TEST_F(ApartSessionTest, IsToldInHealthAsLongAsItLasts) {
+  MapperScene live(folder_.string());
+  drive_lost(live, kMapped);
+  EXPECT_THAT(live.health(), testing::HasSubstr("mapping apart, 11 keyframes"));
+  drive_found(live);
+  EXPECT_THAT(live.health(), testing::Not(testing::HasSubstr("apart")));
+}
+
 TEST_F(ApartSessionTest, IsRecordedWhereItIsNeverFound) {
   MapperScene live(folder_.string());
   drive_lost(live, kMapped);
@@ -91,9 +113,20 @@ TEST_F(ApartSessionTest, IsRecordedWhereItIsNeverFound) {
   }
   EXPECT_EQ(clouds, static_cast<int>(kFirst - kMapped + 1));
   EXPECT_EQ(poses, clouds);
-  const MapperScene next(folder_.string());
-  EXPECT_FALSE(exists(recording()));
-  EXPECT_TRUE(exists(std::filesystem::path(recording().string() + "-1")));
+}
+
+// The folder as it is when kill -9 comes, and the power is back.
+TEST_F(ApartSessionTest, IsTakenUpByTheNextMapper) {
+  MapperScene killed(folder_.string());
+  drive_lost(killed, kMapped);
+  const test::TemporaryFolder copy;
+  std::filesystem::copy(folder_.path(), copy.path());
+  MapperScene live(copy.string());
+  EXPECT_THAT(live.health(), testing::HasSubstr("mapping apart, 11 keyframes"));
+  drive_found(live);
+  EXPECT_EQ(joined(copy.string()), kFirst - kMapped + 1 + kNew);
+  EXPECT_FALSE(exists(copy.path() / kApartFile));
+  EXPECT_FALSE(exists(numbered(copy)));
 }
 
 // The wheels did not notice.
@@ -102,13 +135,59 @@ TEST_F(ApartSessionTest, StaysApartWhereTheRobotWasCarriedIntoTheMap) {
   drive_lost(live, kMapped, 14);
   drive_found(live);
   EXPECT_EQ(joined(), kNew);
+  live.service.reset();
+  EXPECT_GE(recorded_clouds(numbered(folder_)), 5U);
+  const MapperScene next(folder_.string());
+  EXPECT_THAT(next.health(), testing::HasSubstr("apart.lcm-1): voxlist extend"));
+}
+
+TEST_F(ApartSessionTest, StaysApartWherePosesInTheMapDisagree) {
+  MapperScene live(folder_.string());
+  drive_lost(live, kMapped);
+  for (std::size_t i = 1; i <= kFound; ++i)
+    step(live, kMapped - i, 0, true, {0.5 * static_cast<double>(i), 0.0, 0.0});
+  live.service.reset();
+  EXPECT_EQ(stored(), kMapped + kFound);
   EXPECT_TRUE(exists(recording()));
+}
+
+TEST_F(ApartSessionTest, BeginsWhereTheRobotLeavesTheMap) {
+  MapperScene live(folder_.string());
+  drive_found(live);
+  for (std::size_t place = kMapped; place <= kFirst; ++place) step(live, place, 0, false);
+  EXPECT_EQ(stored(), kMapped + kNew) << "they have no place in the map";
+  EXPECT_TRUE(exists(recording()));
+  drive_lost(live, kMapped);
+  drive_found(live);
+  for (std::size_t place = kMapped - kFound; place > 4; --place) step(live, place, 0, true);
+  const std::size_t near = 5;  // seconds in which it may be back at once
+  EXPECT_GE(joined(), 2 * kNew + kFirst - kMapped - near);
+  EXPECT_FALSE(exists(recording()));
+}
+
+TEST_F(ApartSessionTest, BeginsNotWhereTheRobotIsBackAtOnce) {
+  MapperScene live(folder_.string());
+  drive_found(live);
+  for (std::size_t place = kMapped; place < kMapped + 4; ++place) step(live, place, 0, false);
+  step(live, kMapped - 1, 0, true);
+  EXPECT_THAT(live.health(), testing::Not(testing::HasSubstr("apart")));
+  EXPECT_FALSE(exists(recording()));
+}
+
+TEST_F(ApartSessionTest, HasAPieceForEachPlaceThatHangsTogether) {
+  MapperScene live(folder_.string());
+  drive_lost(live, kMapped + 5);
+  for (std::size_t place = kFirst + 20; place < kFirst + 30; ++place) step(live, place, 0, false);
+  live.service.reset();
+  EXPECT_EQ(recorded_clouds(numbered(folder_)), kFirst - kMapped - 5 + 1);
+  EXPECT_GE(recorded_clouds(recording()), 5U);
 }
 
 TEST_F(ApartSessionTest, IsNoneOfAMapThatIsBegun) {
   const test::TemporaryFolder empty;
   MapperScene live(empty.string());
-  live.drive(seen_from(0, ++second_), localisation_t::STATE_LOST);
+  for (std::size_t i = 0; i < 3; ++i)
+    live.drive(seen_from(i, ++second_), localisation_t::STATE_LOST);
   EXPECT_FALSE(exists(empty.path() / kApartFile));
 }
 

@@ -49,6 +49,8 @@ class MapperScene {
     bus_.publish(bus::kOdometry, bus::to_message(StampedPose2{utime_us, T_odom_base}));
   }
 
+  std::string health() const { return health_.message(); }
+
   // A cloud, and what the localiser says of it.
   void drive(const mapping::Keyframe& keyframe,
              std::int32_t state = localisation_t::STATE_TRACKING) {
@@ -58,6 +60,7 @@ class MapperScene {
     message.map_id = assembler.held()->map_id;
     message.map_version = assembler.held()->version;
     message.state = state;
+    message.confidence = state == localisation_t::STATE_TRACKING ? 0.999 : 0.0;
     message.n_modes = 1;
     message.modes.resize(1);
     const Pose2 pose = to_pose2(keyframe.T_map_base);
