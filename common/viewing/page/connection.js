@@ -1,0 +1,89 @@
+// The stream from the server: everything that was told last, by topic. It comes back by itself.
+import { age_s, read_frame } from "./messages.js";
+
+/** @typedef {import("./messages.js").Told} Told */
+
+// Nothing for so long (s): the server is gone, whatever the socket says. It tells the time twice a second.
+const SILENCE_S = 1.6;
+const RETRY_MS = 400;
+
+export class Connection {
+  /** @param {(told: Told) => void} hear */
+  constructor(hear) {
+    this.hear = hear;
+    /** @type {Map<string, Told>} */
+    this.topics = new Map();
+    this.bytes = 0;
+    this.frames = 0;
+    /** @type {WebSocket | undefined} */
+    this.socket = undefined;
+    this.last_ms = -Infinity;
+    this.open();
+    setInterval(() => this.watch(), 250);
+  }
+
+  open() {
+    const socket = new WebSocket(`ws://${location.host}/live`, "voxlist.live.v1");
+    socket.binaryType = "arraybuffer";
+    socket.onmessage = (event) => this.take(socket, event.data);
+    socket.onclose = () => socket === this.socket && setTimeout(() => socket === this.socket && this.open(), RETRY_MS);
+    this.socket = socket;
+    this.opened_ms = performance.now();
+  }
+
+  /**
+   * @param {WebSocket} socket
+   * @param {ArrayBuffer} buffer
+   */
+  take(socket, buffer) {
+    if (socket !== this.socket) return;
+    this.bytes += buffer.byteLength;
+    ++this.frames;
+    this.last_ms = performance.now();
+    const told = read_frame(buffer);
+    if (told.topic !== "blocks") this.topics.set(told.topic, told);
+    this.hear(told);
+  }
+
+  // A server that is stopped keeps its socket: another one is tried.
+  watch() {
+    const since_ms = performance.now() - Math.max(this.last_ms, this.opened_ms ?? 0);
+    if (since_ms < 1000 * 2 * SILENCE_S || this.socket?.readyState === WebSocket.CLOSED) return;
+    const silent = this.socket;
+    this.open();
+    silent?.close();
+  }
+
+  get alive() {
+    return performance.now() - this.last_ms < 1000 * SILENCE_S;
+  }
+
+  /** @param {string} topic */
+  data(topic) {
+    return this.topics.get(topic)?.data;
+  }
+
+  /** @param {string} topic */
+  age_s(topic) {
+    return age_s(this.topics.get(topic));
+  }
+
+  /**
+   * Whether what a topic says may count as now.
+   * @param {string} topic
+   * @param {number} most_s
+   */
+  is_fresh(topic, most_s) {
+    return this.alive && this.age_s(topic) < most_s;
+  }
+
+  /** @param {string} prefix */
+  with_prefix(prefix) {
+    return [...this.topics.values()].filter((told) => told.topic.startsWith(prefix));
+  }
+
+  /** @param {string} prefix */
+  forget(prefix) {
+    for (const topic of [...this.topics.keys()]) if (topic.startsWith(prefix)) this.topics.delete(topic);
+  }
+}

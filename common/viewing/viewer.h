@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "voxlist/viewing/blocks/map_levels.h"
+#include "voxlist/viewing/client.h"
+#include "voxlist/viewing/scene/frame.h"
+#include "voxlist/viewing/scene/robot_scene.h"
+
+namespace voxlist::viewing {
+
+/// What is shown, and how finely.
+struct ViewerConfig {
+  double detail_m = 0.05;
+  int most_points = 5000;
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v("detail_m", detail_m,
+      "edge of the voxels that are shown, at least; the map's own are shown where those are larger",
+      0.04, 1.0);
+    v("most_points", most_points, "points of a cloud that are shown: more load the line", 100,
+      100'000);
+  }
+};
+
+/// Everything that is shown, and what each client has still to get of it. Knows neither sockets nor
+/// a bus.
+class Viewer {
+ public:
+  explicit Viewer(const ViewerConfig& config)
+      : levels_(config.detail_m), scene_(static_cast<std::size_t>(config.most_points)) {}
+
+  /// Where messages other than the map's go.
+  RobotScene& scene() { return scene_; }
+  const MapLevels& levels() const { return levels_; }
+
+  void take(const bus::MapChange& change, std::int64_t now_us);
+
+  /// There is no map any more.
+  void forget_map(std::int64_t now_us);
+
+  /// Brings the levels after the map, some of the way, and tells clients what has changed.
+  void tick();
+
+  /// A client comes, by a number of its own, and goes.
+  int open();
+  void close(int client) { clients_.erase(client); }
+
+  /// What the client is to be sent now; nothing: it has all.
+  std::optional<Frame> next(int client, std::int64_t now_us);
+
+ private:
+  void tell_map(const bus::MapChange& change, std::int64_t now_us);
+
+  MapLevels levels_;
+  RobotScene scene_;
+  std::map<int, Client> clients_;
+  int last_client_ = 0;
+  std::int64_t map_id_ = 0;
+};
+
+}  // namespace voxlist::viewing
