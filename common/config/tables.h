@@ -14,6 +14,7 @@ inline const std::vector<std::string> kTables = {
     "laser_driver",  "mirror_monitor", "cloud_assembler",
     "cloud_adapter", "scan_source",    "localiser",
     "mapper",        "octomap_export", "obstacle_detector",
+    "viewer",
 };
 
 }  // namespace voxlist::config

@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <iostream>
 #include <stdexcept>
 
@@ -112,14 +113,22 @@ FileLock take_lock(const ServiceInfo& info, const bus::BusOptions& options) {
   return std::move(*lock);
 }
 
+// What a service starts, such as lcm-logger, is on the same bus.
+void tell_children(const bus::BusOptions& options) {
+  setenv("LCM_DEFAULT_URL", options.url.c_str(), 1);
+  setenv("VOXLIST_PREFIX", options.prefix.c_str(), 1);
+}
+
 }  // namespace
 
-int run_service(int argc, char** argv, const ServiceInfo& info, const std::vector<config::Section>& settings,
-                const CheckSettings& check, const MakeService& make) try {
+int run_service(int argc, char** argv, const ServiceInfo& info,
+                const std::vector<config::Section>& settings, const CheckSettings& check,
+                const MakeService& make) try {
   bus::BusOptions options;
   const auto exit_code = read_command_line(argc, argv, info, settings, check, options);
   if (exit_code) return *exit_code;
 
+  tell_children(options);
   stop_on_signals(info.ends_within_work);
   std::signal(SIGPIPE, SIG_IGN);  // a service outlives whoever reads its log
   log_to_stderr(info.name);

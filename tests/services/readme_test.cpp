@@ -20,6 +20,7 @@
 #include "services/octomap_export/octomap_export_service.h"
 #include "services/scan_source/scan_source_service.h"
 #include "services/simulator/simulator_service.h"
+#include "services/viewer/viewer_service.h"
 #include "voxlist/config/config.h"
 #include "voxlist/config/tables.h"
 
@@ -53,6 +54,7 @@ const std::map<std::string, std::string> kServiceTables = {
     {"mapper", table_of<MapperServiceConfig>()},
     {"octomap_export", table_of<OctomapExportConfig>()},
     {"obstacle_detector", table_of<planning::ObstacleConfig>()},
+    {"viewer", table_of<ViewerServiceConfig>()},
 };
 
 std::set<std::string> service_folders() {

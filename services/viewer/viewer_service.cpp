@@ -1,0 +1,209 @@
+#include "services/viewer/viewer_service.h"
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <variant>
+#include <voxlist/health_t.hpp>
+#include <voxlist/localisation_t.hpp>
+#include <voxlist/map_edit_t.hpp>
+#include <voxlist/map_edits_t.hpp>
+#include <voxlist/map_octree_t.hpp>
+#include <voxlist/map_request_t.hpp>
+#include <voxlist/map_update_t.hpp>
+#include <voxlist/obstacles_t.hpp>
+#include <voxlist/pointcloud_t.hpp>
+#include <voxlist/pose_hint_t.hpp>
+#include <voxlist/pose_t.hpp>
+#include <voxlist/traversability_t.hpp>
+#include <voxlist/uncertain_pose_t.hpp>
+
+#include "voxlist/bus/bus.h"
+#include "voxlist/bus/health.h"
+#include "voxlist/bus/maps/edit_convert.h"
+
+namespace voxlist::services {
+namespace {
+
+using viewing::CommandAnswer;
+
+// A page that hears nothing for longer than a few of these (us) knows that the service is gone.
+constexpr std::int64_t kTimePeriod_us = 500'000;
+
+// MAP_EDITS is asked for this often until it is there (us).
+constexpr std::int64_t kEditsPeriod_us = 2'000'000;
+
+std::string open_sentence(const std::string& address) {
+  if (viewing::is_loopback(address)) return {};
+  return "everybody who reaches " + address + " sees the page and can give commands";
+}
+
+viewing::ServerOptions listening(const ViewerServiceConfig& config) {
+  return {config.address, static_cast<std::uint16_t>(config.port), viewing::inherited_socket()};
+}
+
+}  // namespace
+
+void ViewerService::check(const ViewerServiceConfig& config) {
+  if (!viewing::is_address(config.address))
+    throw std::invalid_argument("address must be in numbers, such as 127.0.0.1");
+  if (const std::string why = why_invalid(config.robots); !why.empty())
+    throw std::invalid_argument(why);
+}
+
+ViewerService::ViewerService(bus::Bus& bus, bus::Health& health, const ViewerServiceConfig& config)
+    : bus_(bus),
+      health_(health),
+      viewer_(config.viewer),
+      follower_(health),
+      server_(listening(config), owner()) {
+  check(config);
+  subscribe(config.robots);
+  health_.raise("open", bus::Health::State::kWarning, open_sentence(config.address));
+  viewer_.scene().board().put(
+      "hello", fmt::format("{{\"token\":\"{}\",\"session\":\"{}\"}}", server_.token(), getpid()),
+      0);
+}
+
+template <class M>
+void ViewerService::show(bus::Channel<M> channel) {
+  bus_.subscribe(channel, [this](const M& message) { viewer_.scene().take(message, now_us_); });
+}
+
+void ViewerService::subscribe(const planning::RobotProfiles& robots) {
+  show(bus::kLocalisation);
+  show(bus::kPose);
+  show(bus::kPoseCovariance);
+  show(bus::kObstacles);
+  show(bus::kHealth);
+  show(bus::kOctomap);
+  for (const planning::RobotProfile& robot : robots.in_use()) {
+    const std::string channel = "TRAVERSABILITY_" + robot.name;
+    show(bus::Channel<traversability_t>{channel.c_str()});
+  }
+  bus_.subscribe(bus::kMapUpdate, [this](const map_update_t& m) { take(m); });
+  bus_.subscribe(bus::kCloud,
+                 [this](const pointcloud_t& m) { viewer_.scene().take_cloud(m, now_us_); });
+  bus_.subscribe(bus::kCloudSlice,
+                 [this](const pointcloud_t& m) { viewer_.scene().take_slice(m, now_us_); });
+  bus_.subscribe(bus::kMapEdits, [this](const map_edits_t& m) {
+    if (const auto edits = bus::from_message(m)) viewer_.scene().take(*edits, now_us_);
+  });
+}
+
+void ViewerService::take(const map_update_t& message) {
+  for (const bus::MapChange& change : follower_.take(message)) viewer_.take(change, now_us_);
+}
+
+void ViewerService::tick(std::int64_t now_us) {
+  now_us_ = now_us;
+  follow_map();
+  viewer_.tick();
+  if (!told_us_ || now_us - *told_us_ >= kTimePeriod_us) tell_time();
+  server_.poll();
+  report();
+}
+
+void ViewerService::follow_map() {
+  if (const auto wanted = follower_.tick(now_us_)) bus_.publish(bus::kMapRequest, *wanted);
+  if (!follower_.held()) return viewer_.forget_map(now_us_);
+  if (asked_edits_us_ && now_us_ - *asked_edits_us_ < kEditsPeriod_us) return;
+  if (viewer_.scene().knows_edits()) return;
+  asked_edits_us_ = now_us_;
+  request(map_request_t::WANT_EDITS);
+}
+
+void ViewerService::tell_time() {
+  told_us_ = now_us_;
+  viewer_.scene().board().put(
+      "time",
+      fmt::format("{{\"now_us\":{},\"clients\":{},\"recording\":\"{}\"}}", now_us_,
+                  server_.clients(), recorder_.is_on() ? recorder_.file().filename().string() : ""),
+      now_us_);
+}
+
+void ViewerService::report() {
+  health_.gauge("clients", server_.clients());
+  health_.gauge("refused_requests", static_cast<double>(server_.refused()));
+}
+
+viewing::ServerOwner ViewerService::owner() {
+  return {[this] { return viewer_.open(); }, [this](int client) { viewer_.close(client); },
+          [this](int client) { return viewer_.next(client, now_us_); },
+          [this](const std::string& name, const std::string& json) { return obey(name, json); }};
+}
+
+CommandAnswer ViewerService::obey(const std::string& name, const std::string& json) {
+  const auto command = viewing::parse_command(name, json);
+  if (!command) return {400, "no such command, or it does not say what it needs"};
+  return std::visit([this](const auto& c) { return obey(c); }, *command);
+}
+
+// No two commands have the same time, so that an answer tells which one it belongs to.
+std::int64_t ViewerService::next_utime_us() {
+  return last_utime_us_ = std::max(now_us_, last_utime_us_ + 1);
+}
+
+CommandAnswer ViewerService::request(std::int32_t want) {
+  map_request_t message{};
+  message.utime = next_utime_us();
+  message.want = want;
+  bus_.publish(bus::kMapRequest, message);
+  return {};
+}
+
+CommandAnswer ViewerService::obey(const viewing::HintCommand& command) {
+  if (!follower_.held()) return {409, "there is no map"};
+  pose_hint_t message{};
+  message.utime = next_utime_us();
+  message.map_id = follower_.held()->map_id;
+  message.pose[0] = command.pose.x_m;
+  message.pose[1] = command.pose.y_m;
+  message.pose[2] = command.pose.yaw_rad;
+  message.sigma_m = command.sigma_m;
+  message.sigma_rad = command.sigma_rad;
+  bus_.publish(bus::kPoseHint, message);
+  return {};
+}
+
+CommandAnswer ViewerService::obey(const viewing::SaveCommand&) {
+  return request(map_request_t::WANT_SAVE);
+}
+
+CommandAnswer ViewerService::obey(const viewing::LocaliseOnlyCommand& command) {
+  constexpr std::int32_t kOn = map_request_t::WANT_LOCALISE_ONLY, kOff = map_request_t::WANT_EXTEND;
+  return request(command.on ? kOn : kOff);
+}
+
+CommandAnswer ViewerService::obey(const viewing::EditCommand& command) {
+  if (!follower_.held()) return {409, "there is no map"};
+  const bus::EditWish wish{next_utime_us(), follower_.held()->map_id, command.kind, 0, command.box};
+  bus_.publish(bus::kMapEdit, bus::to_message(wish));
+  return {};
+}
+
+CommandAnswer ViewerService::obey(const viewing::RemoveEditCommand& command) {
+  if (!follower_.held()) return {409, "there is no map"};
+  const bus::EditWish wish{next_utime_us(), follower_.held()->map_id, std::nullopt, command.id, {}};
+  bus_.publish(bus::kMapEdit, bus::to_message(wish));
+  return {};
+}
+
+CommandAnswer ViewerService::obey(const viewing::RecordCommand& command) {
+  if (!command.on) recorder_.stop();
+  const std::string wrong = command.on ? recorder_.start(now_us_) : "";
+  tell_time();
+  return wrong.empty() ? CommandAnswer{} : CommandAnswer{409, wrong};
+}
+
+CommandAnswer ViewerService::obey(const viewing::PlayCommand&) {
+  return {409, "this is live, not a recording"};
+}
+
+CommandAnswer ViewerService::obey(const viewing::SeekCommand&) {
+  return {409, "this is live, not a recording"};
+}
+
+}  // namespace voxlist::services
