@@ -8,7 +8,7 @@ program=$(basename "$0")
 # robots that have the mirror scanner, the next one for those that have another 3D laser.
 scanner_services=(laser_driver mirror_monitor cloud_assembler)
 adapter_services=(cloud_adapter)
-services=("${scanner_services[@]}" "${adapter_services[@]}" localiser mapper octomap_export obstacle_detector viewer)
+services=("${scanner_services[@]}" "${adapter_services[@]}" localiser mapper octomap_export grid_export obstacle_detector viewer)
 
 say() { echo "$program: $*" >&2; }
 

@@ -12,11 +12,13 @@ class map_update_t;
 class mirror_state_t;
 class obstacles_t;
 class pixel_map_t;
+class pixel_map_t;
 class planar_lidar_t;
 class pointcloud_t;
 class pose_hint_t;
 class pose_t;
 class rigid_transform_t;
+class traversability_t;
 class traversability_t;
 class uncertain_pose_t;
 }  // namespace voxlist
@@ -111,6 +113,12 @@ inline constexpr Channel<map_edits_t> kMapEdits{"MAP_EDITS"};
 /// The map as an OctoMap. Frame: map. Rate: on change, at most 1 Hz.
 /// From octomap_export to planners.
 inline constexpr Channel<map_octree_t> kOctomap{"OCTOMAP"};
+
+/// The floor plan for one robot: GRID_ and TRAVERSABILITY_, each with the robot's name. Of GRID the
+/// type is pixel_map_t (free, unknown, not free), of TRAVERSABILITY traversability_t (all types).
+/// Frame: map. Rate: on change of the map. From grid_export to planners and viewers.
+inline constexpr const char* kGridPrefix = "GRID_";
+inline constexpr const char* kTraversabilityPrefix = "TRAVERSABILITY_";
 
 /// Nearest obstacle in each bearing. Frame: base. Rate: each cloud or slice.
 /// From obstacle_detector to planners.

@@ -10,10 +10,19 @@ namespace voxlist::config {
 /// services/README.md. A service looks only into its own, and complains about a table that nobody
 /// would read.
 inline const std::vector<std::string> kTables = {
-    "bus",           "robot",          "simulator",
-    "laser_driver",  "mirror_monitor", "cloud_assembler",
-    "cloud_adapter", "scan_source",    "localiser",
-    "mapper",        "octomap_export", "obstacle_detector",
+    "bus",
+    "robot",
+    "simulator",
+    "laser_driver",
+    "mirror_monitor",
+    "cloud_assembler",
+    "cloud_adapter",
+    "scan_source",
+    "localiser",
+    "mapper",
+    "octomap_export",
+    "grid_export",
+    "obstacle_detector",
     "viewer",
 };
 

@@ -12,6 +12,7 @@
 
 #include "services/cloud_adapter/cloud_adapter_service.h"
 #include "services/cloud_assembler/cloud_assembler_service.h"
+#include "services/grid_export/grid_export_service.h"
 #include "services/laser_driver/laser_driver_service.h"
 #include "services/localiser/localiser_service.h"
 #include "services/mapper/mapper_service.h"
@@ -43,6 +44,12 @@ std::string table_of() {
   return config::markdown_table(config::section("", config));
 }
 
+// The robots are no service's alone: grid_export's README tells of them.
+std::string grid_tables() {
+  planning::RobotProfiles robots;
+  return table_of<GridExportConfig>() + "\n" + config::markdown_table(config::root_section(robots));
+}
+
 const std::map<std::string, std::string> kServiceTables = {
     {"simulator", table_of<SimulatorConfig>()},
     {"laser_driver", table_of<scanner::Lms200Config>()},
@@ -53,6 +60,7 @@ const std::map<std::string, std::string> kServiceTables = {
     {"localiser", table_of<LocaliserServiceConfig>()},
     {"mapper", table_of<MapperServiceConfig>()},
     {"octomap_export", table_of<OctomapExportConfig>()},
+    {"grid_export", grid_tables()},
     {"obstacle_detector", table_of<planning::ObstacleConfig>()},
     {"viewer", table_of<ViewerServiceConfig>()},
 };
