@@ -69,7 +69,7 @@ std::optional<Keyframe> KeyframeReader::next() {
     next_number_ = std::max(next_number_, record->header.number) + 1;
     if (!record->keyframe) continue;
     place_by_graph(*record->keyframe);
-    place_ = {record->start, record->end - record->start};
+    place_ = {record->start, record->end - record->start, record->header.payload_checksum};
     ++whole_;
     return std::move(record->keyframe);
   }

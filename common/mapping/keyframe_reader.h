@@ -15,6 +15,8 @@ namespace voxlist::mapping {
 struct KeyframePlace {
   std::uint64_t start = 0;
   std::uint64_t bytes = 0;
+  /// The checksum of its payload.
+  std::uint32_t checksum = 0;
 };
 
 /// Hands out the keyframes of a file one by one, in memory for one of them. After any damage it

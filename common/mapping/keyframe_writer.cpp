@@ -27,6 +27,10 @@ struct stat info_of(int file) {
   return info;
 }
 
+KeyframePlace place_of(std::string_view record, std::uint64_t start) {
+  return {start, record.size(), parse_record_header(record)->payload_checksum};
+}
+
 }  // namespace
 
 NewKeyframeFile::NewKeyframeFile(const std::filesystem::path& file, std::int64_t map_id)
@@ -37,7 +41,7 @@ NewKeyframeFile::NewKeyframeFile(const std::filesystem::path& file, std::int64_t
 KeyframePlace NewKeyframeFile::add(const Keyframe& keyframe) {
   const std::string record = encode_record(keyframe, map_id_, number_++);
   file_.write(record);
-  const KeyframePlace place{bytes_, record.size()};
+  const KeyframePlace place = place_of(record, bytes_);
   bytes_ += record.size();
   return place;
 }
@@ -85,7 +89,7 @@ KeyframePlace KeyframeWriter::append(const std::string& record) try {
     throw;
   }
   size_ = info_of(file_.get()).st_size;
-  return {static_cast<std::uint64_t>(before), record.size()};
+  return place_of(record, static_cast<std::uint64_t>(before));
 } catch (const std::runtime_error& failure) {
   throw io::FileError(path_, failure.what() + std::string("; the keyframes before it are safe"));
 }

@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "voxlist/geometry/cloud.h"
@@ -64,6 +65,8 @@ class MapBuilder {
  public:
   explicit MapBuilder(const MapBuilderConfig& config = {});
 
+  const MapBuilderConfig& config() const { return config_; }
+
   /// Whether a cloud (in base) at this pose (T_map_base, which must be a sure one) is worth adding:
   /// it has moved enough since the last one that was looked at, and tells enough that is new.
   bool wants(const Cloud& cloud, const Pose2& pose, const Tilt& tilt = {});
@@ -90,6 +93,21 @@ class MapBuilder {
   void edit(MapEdits edits);
 
   const MapEdits& edits() const { return edits_; }
+
+  /// Calls visit(part) for each VoxelMap and CounterMap that the map is made of, without edits.
+  template <class Visit>
+  void visit_built(const Visit& visit) const {
+    std::as_const(*map_).visit_parts(visit);
+  }
+
+  /// An empty builder has that map again: fill(part) fills the same parts, and keyframes stand at
+  /// these poses.
+  template <class Fill>
+  void restore(std::vector<StampedPose3> poses, const Fill& fill) {
+    map_->restore(fill);
+    poses_ = std::move(poses);
+    if (!poses_.empty()) looked_at_ = to_pose2(poses_.back().pose);
+  }
 
   /// Begins an empty map, without edits.
   void clear();

@@ -83,6 +83,12 @@ const VoxelBlock* VoxelMap::find_block(const Voxel& block) const {
   return number == Numbering<Voxel>::kNone ? nullptr : &blocks_[number];
 }
 
+void VoxelMap::reserve(std::size_t blocks) {
+  VOXLIST_CHECK(blocks_.empty(), "room is made before the first block");
+  positions_ = Numbering<Voxel>(blocks);
+  blocks_.reserve(blocks);
+}
+
 std::size_t VoxelMap::memory_bytes() const {
   return positions_.memory_bytes() + blocks_.capacity() * sizeof(VoxelBlock);
 }

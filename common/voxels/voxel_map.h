@@ -66,6 +66,9 @@ class VoxelMap {
   const Voxel& block_position(std::size_t i) const { return positions_.key(i); }
   const VoxelBlock& block(std::size_t i) const { return blocks_[i]; }
 
+  /// An empty map makes room for so many blocks: then it does not grow by doubling.
+  void reserve(std::size_t blocks);
+
   /// The block at a position (block coordinates), or nullptr when nothing was ever put there.
   const VoxelBlock* find_block(const Voxel& block) const;
 

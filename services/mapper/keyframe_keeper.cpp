@@ -12,6 +12,7 @@
 #include "voxlist/mapping/edits/stored_edits.h"
 #include "voxlist/mapping/keyframe_reader.h"
 #include "voxlist/mapping/keyframe_writer.h"
+#include "voxlist/service/stop.h"
 
 namespace voxlist::services {
 namespace {
@@ -22,6 +23,9 @@ using State = bus::Health::State;
 // 5 ms, and nothing else is done meanwhile.
 constexpr std::size_t kWrittenAtOnce = 50;
 
+// A map that took so many keyframes to be built is kept as it is then: about a second of work.
+constexpr std::size_t kWorthKeeping = 200;
+
 // Of a keyframe without points.
 constexpr std::size_t kFixedBytes = 200;
 
@@ -30,25 +34,65 @@ std::size_t bytes_of(const mapping::Keyframe& keyframe) {
   return kFixedBytes + (cloud.points.size() + cloud.origins.size()) * sizeof(Eigen::Vector3f);
 }
 
+// A large map takes a while to read.
+void stop_if_asked() {
+  if (service::stop_requested()) throw service::Stopped();
+}
+
+void note(const mapping::Keyframe& keyframe, std::vector<StampedPose3>& poses) {
+  stop_if_asked();
+  poses.push_back({keyframe.cloud.utime_us, keyframe.T_map_base});
+}
+
 }  // namespace
 
 KeyframeKeeper::KeyframeKeeper(bus::Health& health, const std::filesystem::path& folder,
-                               bool extend, std::int64_t new_map_id,
-                               const std::vector<StampedPose3>& poses, const Take& restore)
-    : health_(health), folder_(folder), poses_(poses), map_id_(new_map_id) {
+                               bool extend, std::int64_t new_map_id, mapping::MapBuilder& builder)
+    : health_(health), folder_(folder), builder_(builder), map_id_(new_map_id) {
   if (folder_.empty()) return;
-  extend ? open_store(restore) : open_read_only(restore);
+  extend ? open_store() : open_read_only();
 }
 
-void KeyframeKeeper::open_store(const Take& restore) {
-  store_ = std::make_unique<mapping::MapStore>(folder_, map_id_, restore);
+void KeyframeKeeper::open_store() {
+  std::vector<StampedPose3> poses;
+  store_ = std::make_unique<mapping::MapStore>(
+      folder_, map_id_, [&](const mapping::Keyframe& keyframe) { note(keyframe, poses); });
   map_id_ = store_->map_id();
   moves_ = store_->moves();
   edits_ = store_->edits();
   health_.raise("damage", State::kWarning, store_->notice());
+  build(poses);
 }
 
-void KeyframeKeeper::open_read_only(const Take& restore) {
+// Of the file of before, as far as it goes: the rest takes 3 to 10 ms a keyframe.
+void KeyframeKeeper::build(const std::vector<StampedPose3>& poses) {
+  const std::size_t built =
+      mapping::read_built(folder_, {map_id_, disk()->places(), poses}, builder_);
+  health_.gauge("keyframes_built_anew", static_cast<double>(poses.size() - built));
+  if (built > 0) kept_key_ = built_of().key(built, builder_.config());
+  mapping::add_stored(*disk(), poses, builder_, stop_if_asked);
+  if (poses.size() < built + kWorthKeeping) return;
+  try {
+    write_built();
+  } catch (const io::FileError&) {
+    health_.count("save_failed");  // the next save tells why
+  }
+}
+
+// Of the keyframes that are in the map.
+mapping::BuiltOf KeyframeKeeper::built_of() const {
+  return {map_id_, disk()->places(), builder_.poses()};
+}
+
+void KeyframeKeeper::write_built() {
+  if (!store_ || !waiting_.empty()) return;
+  const std::uint64_t key = built_of().key(builder_.poses().size(), builder_.config());
+  if (key == kept_key_) return;
+  mapping::write_built(store_->folder(), built_of(), builder_);
+  kept_key_ = key;
+}
+
+void KeyframeKeeper::open_read_only() {
   const auto file = folder_ / mapping::kKeyframeFile;
   if (!std::filesystem::exists(file)) {
     return health_.raise(
@@ -57,9 +101,10 @@ void KeyframeKeeper::open_read_only(const Take& restore) {
   }
   mapping::KeyframeReader reader(file);
   std::vector<mapping::KeyframePlace> places;
-  while (auto keyframe = reader.next()) {
+  std::vector<StampedPose3> poses;
+  while (const auto keyframe = reader.next()) {
     places.push_back(reader.place());
-    restore(std::move(*keyframe));
+    note(*keyframe, poses);
   }
   map_id_ = reader.map_id().value_or(map_id_);
   moves_ = reader.moves();
@@ -68,6 +113,7 @@ void KeyframeKeeper::open_read_only(const Take& restore) {
   health_.raise("damage", State::kWarning, reader.warning());
   health_.raise("edits", State::kWarning, found.fault);
   served_ = std::make_unique<mapping::StoredKeyframes>(file, std::move(places));
+  build(poses);
 }
 
 std::size_t KeyframeKeeper::bytes(std::size_t index) const {
@@ -77,7 +123,7 @@ std::size_t KeyframeKeeper::bytes(std::size_t index) const {
 mapping::Keyframe KeyframeKeeper::read(std::size_t index) {
   mapping::Keyframe keyframe =
       index < on_disk() ? read_from_disk(index) : waiting_[index - on_disk()];
-  keyframe.T_map_base = poses_[index].pose;
+  keyframe.T_map_base = builder_.poses()[index].pose;
   return keyframe;
 }
 
@@ -90,8 +136,8 @@ mapping::Keyframe KeyframeKeeper::read_from_disk(std::size_t index) {
   }
   fail("lost", fmt::format("keyframe {} cannot be read back: {}", index, why));
   mapping::Keyframe pose_alone;
-  pose_alone.cloud.utime_us = poses_[index].utime_us;
-  pose_alone.T_map_base = poses_[index].pose;
+  pose_alone.cloud.utime_us = builder_.poses()[index].utime_us;
+  pose_alone.T_map_base = builder_.poses()[index].pose;
   return pose_alone;
 }
 

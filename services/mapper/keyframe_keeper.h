@@ -3,11 +3,11 @@
 #include <cstdint>
 #include <deque>
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "voxlist/mapping/built/built_map.h"
 #include "voxlist/mapping/map_store.h"
 
 namespace voxlist::bus {
@@ -25,14 +25,10 @@ class KeyframeKeeper {
   /// clouds of 12,000 points.
   static constexpr std::size_t kMostWaiting = 256'000'000;
 
-  using Take = std::function<void(mapping::Keyframe)>;
-
-  /// Hands each keyframe of the folder's map to `restore`. Without a folder (empty) there is none;
-  /// `extend` false: nothing is ever written. `poses` of all keyframes are held elsewhere. Throws
-  /// FileError as MapStore and KeyframeReader do.
+  /// Reads the folder's map into `builder`. Without a folder (empty) there is none; `extend` false:
+  /// nothing is ever written. Throws FileError as MapStore and KeyframeReader do, and Stopped.
   KeyframeKeeper(bus::Health& health, const std::filesystem::path& folder, bool extend,
-                 std::int64_t new_map_id, const std::vector<StampedPose3>& poses,
-                 const Take& restore);
+                 std::int64_t new_map_id, mapping::MapBuilder& builder);
 
   std::int64_t map_id() const { return map_id_; }
 
@@ -76,12 +72,19 @@ class KeyframeKeeper {
   /// second.
   void look_after();
 
+  /// Keeps the map as it is built beside the keyframes, so that the next start need not build it
+  /// again. Does nothing where it is there already, or some of them wait for the disk. Throws
+  /// FileError.
+  void write_built();
+
   /// Writes all that waits. False when the disk does not take it.
   bool finish();
 
  private:
-  void open_store(const Take& restore);
-  void open_read_only(const Take& restore);
+  void open_store();
+  void open_read_only();
+  void build(const std::vector<StampedPose3>& poses);
+  mapping::BuiltOf built_of() const;
   mapping::StoredKeyframes* disk() const { return store_ ? &store_->keyframes() : served_.get(); }
   std::size_t on_disk() const { return disk() ? disk()->size() : 0; }
   mapping::Keyframe read_from_disk(std::size_t index);
@@ -93,9 +96,10 @@ class KeyframeKeeper {
 
   bus::Health& health_;
   const std::filesystem::path folder_;
-  const std::vector<StampedPose3>& poses_;
+  mapping::MapBuilder& builder_;
   std::int64_t map_id_;
   std::int64_t moves_ = 0;
+  std::uint64_t kept_key_ = 0;  // of the built map on the disk
   mapping::MapEdits edits_;
   std::unique_ptr<mapping::MapStore> store_;          // of a map that is written
   std::unique_ptr<mapping::StoredKeyframes> served_;  // of one that is not

@@ -22,7 +22,6 @@
 #include "voxlist/geometry/elementary.h"
 #include "voxlist/io/files/file.h"
 #include "voxlist/mapping/map_views.h"
-#include "voxlist/service/stop.h"
 #include "voxlist/system/state_folder.h"
 
 namespace voxlist::services {
@@ -106,9 +105,7 @@ MapperService::MapperService(bus::Bus& bus, bus::Health& health, const MapperSer
       health_(health),
       config_(config),
       builder_(with_free_space(config.builder)),
-      keyframes_(health, in_state_folder(config.folder), config.extend, new_map_id(),
-                 builder_.poses(),
-                 [this](mapping::Keyframe keyframe) { restore(std::move(keyframe)); }),
+      keyframes_(health, in_state_folder(config.folder), config.extend, new_map_id(), builder_),
       loops_(health, config.close_loops, with_free_space(config.builder)),
       apart_(health, keyframes_.folder(), !builder_.poses().empty(), config.tilt, config.builder),
       moves_(keyframes_.moves()),
@@ -119,6 +116,7 @@ MapperService::MapperService(bus::Bus& bus, bus::Health& health, const MapperSer
       free_channel_(bus, health, sender_, bus::kFreeSpace),
       edit_channel_(bus, health, sender_) {
   builder_.edit(keyframes_.edits());
+  for (const StampedPose3& keyframe : builder_.poses()) path_.restore(keyframe);
   recall_graph();
   bus_.subscribe(bus::kCloud, [this](const pointcloud_t& message) { take_cloud(message); });
   bus_.subscribe(bus::kLocalisation,
@@ -129,13 +127,6 @@ MapperService::MapperService(bus::Bus& bus, bus::Health& health, const MapperSer
   });
   bus_.subscribe(bus::kMapRequest, [this](const map_request_t& message) { take_request(message); });
   bus_.subscribe(bus::kHealth, [this](const health_t& message) { take_health(message); });
-}
-
-// A large map takes a while to read.
-void MapperService::restore(mapping::Keyframe keyframe) {
-  if (service::stop_requested()) throw service::Stopped();
-  path_.restore({keyframe.cloud.utime_us, keyframe.T_map_base});
-  builder_.add(std::move(keyframe));
 }
 
 void MapperService::take_cloud(const pointcloud_t& message) {
@@ -325,6 +316,7 @@ void MapperService::save() {
   if (folder.empty()) return;
   views_failed_ = true;
   try {
+    keyframes_.write_built();
     mapping::write_map_views(folder, builder_.map(), path_.poses(), closed_loops_);
     views_failed_ = false;
     health_.count("saved");

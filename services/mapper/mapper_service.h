@@ -98,7 +98,6 @@ class MapperService {
   void give_up(std::int64_t map_id);
   void set_extending(bool wanted);
   void take_health(const health_t& message);
-  void restore(mapping::Keyframe keyframe);
   void decide(const localisation_t& message);
   void confirm();
   bool takes(const Tilt& tilt);

@@ -19,29 +19,24 @@ mapping::Keyframe keyframe(int number, std::size_t points) {
   mapping::Keyframe keyframe;
   keyframe.cloud.utime_us = number;
   keyframe.T_map_base = to_pose3({double(number), 0.0, 0.0});
-  keyframe.cloud.points.resize(points, {float(number), 0.f, 0.f});
+  keyframe.cloud.points.resize(points, {1.f + float(number), 0.f, 0.f});
   return keyframe;
 }
 
-// A keeper, and the poses as MapBuilder holds them.
+// A keeper, and the map of its keyframes.
 struct Scene {
-  explicit Scene(const std::string& folder)
-      : keeper(health, folder, true, 42, poses, [this](const mapping::Keyframe& k) { note(k); }) {}
+  explicit Scene(const std::string& folder) : keeper(health, folder, true, 42, builder) {}
 
-  void note(const mapping::Keyframe& k) { poses.push_back({k.cloud.utime_us, k.T_map_base}); }
-  void add(const mapping::Keyframe& k) {
-    note(k);
-    keeper.add(k);
-  }
+  void add(const mapping::Keyframe& k) { keeper.add(builder.add(k)); }
   void expect_all(std::size_t points) {
-    for (std::size_t i = 0; i < poses.size(); ++i) {
+    for (std::size_t i = 0; i < builder.poses().size(); ++i) {
       EXPECT_EQ(keeper.read(i).cloud.utime_us, std::int64_t(i));
       EXPECT_EQ(keeper.read(i).cloud.points.size(), points);
     }
   }
 
   bus::Health health{"mapper"};
-  std::vector<StampedPose3> poses;
+  mapping::MapBuilder builder;
   KeyframeKeeper keeper;
 };
 

@@ -201,6 +201,32 @@ TEST(Mapper, ADeadMappersMapIsThereAgainAtItsNextStart) {
   EXPECT_EQ(test::load_map(folder.string()).keyframes.size(), 3u);
 }
 
+// What the mapper says in HEALTH of so many keyframes that it has to add at its start.
+double built_anew(Scene& scene) {
+  const health_t health = scene.health.due(scene.now_us += kSecond_us).value();
+  return std::ranges::find(health.gauges, "keyframes_built_anew", &gauge_t::name)->value;
+}
+
+TEST(Mapper, BuildsItsMapAnewOnlyWhereItIsNotThatOfItsKeyframes) {
+  const TemporaryFolder folder;
+  std::optional<Scene> scene(folder.string());
+  scene->request(map_request_t::WANT_MAP);
+  scene->drive(1, {});
+  scene->drive(2, {1.0, 0.0, 0.0});
+  scene->service->stop();
+  scene->drive(3, {2.0, 0.0, 0.0});
+  const std::uint64_t map = scene->map.occupied.hash();
+  for (const double anew : {1.0, 3.0}) {
+    scene.reset();
+    if (anew == 3.0) std::filesystem::resize_file(folder / mapping::kBuiltFile, 100);
+    scene.emplace(folder.string());
+    scene->request(map_request_t::WANT_MAP);
+    EXPECT_EQ(built_anew(*scene), anew);
+    EXPECT_EQ(scene->assembler.held()->version, 3);
+    EXPECT_EQ(scene->map.occupied.hash(), map);
+  }
+}
+
 TEST(Mapper, SendsKeyframesFromTheOneThatWasMissed) {
   const TemporaryFolder folder;
   Scene scene(folder.string());

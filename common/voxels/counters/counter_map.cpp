@@ -72,6 +72,11 @@ CounterBlock& CounterMap::counters_at(const Voxel& position) {
   return at(number);
 }
 
+void CounterMap::reserve(std::size_t blocks) {
+  VOXLIST_CHECK(block_count() == 0, "room is made before the first block");
+  positions_ = Numbering<Voxel>(blocks);
+}
+
 std::uint32_t CounterMap::number_at(const Voxel& position) {
   const std::uint32_t number = positions_.number(position);
   if (number == chunks_.size() * kChunk)

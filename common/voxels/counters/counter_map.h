@@ -55,6 +55,9 @@ class CounterMap {
   BlockBits known(std::size_t i) const { return block(i).known(); }
   BlockBits occupied(std::size_t i) const { return update_.occupied(block(i)); }
 
+  /// An empty map makes room for so many blocks.
+  void reserve(std::size_t blocks);
+
   /// The block's number, or Numbering<Voxel>::kNone.
   std::uint32_t find_block(const Voxel& position) const { return positions_.find(position); }
 

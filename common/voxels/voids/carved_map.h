@@ -66,6 +66,20 @@ class CarvedMap {
 
   const OccupancyMap& map() const { return map_; }
 
+  /// Calls visit(part) for each VoxelMap and CounterMap that all else here is made of, always in
+  /// the same order.
+  template <class Visit>
+  void visit_parts(const Visit& visit) const {
+    visit_parts_of(*this, visit);
+  }
+
+  /// Calls fill(part) for the same of an empty map. Then it is the one that was visited.
+  template <class Fill>
+  void restore(const Fill& fill) {
+    visit_parts_of(*this, fill);
+    free_.follow();
+  }
+
   /// What was hit in void space and is not in the map, or not yet.
   const VoxelMap& waiting() const { return waiting_; }
 
@@ -80,6 +94,15 @@ class CarvedMap {
   };
   // Large cubes by their position; where a pointer to them is nullptr, everywhere.
   using Cubes = Numbering<Voxel>;
+
+  template <class Self, class Visit>
+  static void visit_parts_of(Self& self, const Visit& visit) {
+    visit(self.map_.occupied);
+    visit(self.map_.passed);
+    visit(self.waiting_);
+    for (auto& cells : self.voids_) visit(cells.counters());
+    if (self.config_.count_free) visit(self.free_.counters());
+  }
 
   void add(const Scan& scan, const Cubes* only, ChangedBlocks& changed);
   void mark(const Scan& scan);

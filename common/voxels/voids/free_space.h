@@ -26,6 +26,7 @@ class FreeSpace {
 
   /// The counters, for who takes scans out.
   CounterMap& counters() { return counters_; }
+  const CounterMap& counters() const { return counters_; }
 
  private:
   CounterMap counters_;
