@@ -114,8 +114,9 @@ function vertices_of(chunk, now_s) {
   for (const [index, block] of chunk.blocks) {
     const corner = ((index & 7) << 3) | (((index >> 3) & 7) << 11) | ((index >> 6) << 19);
     const age = Math.min(127, Math.round(12 * Math.log2(1 + Math.max(0, now_s - block.changed_s) / 2))) << 25;
+    const next = index >> 6 < 7 ? chunk.blocks.get(index + 64) : undefined;
     for (let half = 0; half < 16; ++half) {
-      const above = half < 14 ? block.bits[half + 2] : 0;
+      const above = half < 14 ? block.bits[half + 2] : (next?.bits[half - 14] ?? 0);
       for (let left = block.bits[half]; left !== 0; left &= left - 1) {
         const bit = 31 - Math.clz32(left & -left);
         const y = (bit >> 3) + 4 * (half & 1);

@@ -159,7 +159,7 @@ export class Overlay {
       for (const mode of robot.modes) {
         const colour = css(this.robot_is_fresh ? "doubt" : "stale");
         const ghost = [mode.pose[0], mode.pose[1], z, mode.pose[2]];
-        this.body(ghost, colour, 0.15 + 0.6 * mode.probability);
+        this.body(ghost, colour, 0.35 + 0.6 * mode.probability);
         this.ellipse(ghost, mode.covariance, colour);
         this.label(`${(100 * mode.probability).toFixed(0)} %`, placed(ghost)(0, 0, 0.8));
       }
@@ -167,7 +167,7 @@ export class Overlay {
     if (tracks && this.layers.has("obstacles")) this.draw_obstacles(pose);
     const covariance = this.bus.data("sigma")?.covariance;
     if (tracks && covariance) this.ellipse(pose, covariance, css("good"));
-    this.body(pose, css(tracks ? "good" : "stale"), tracks ? 0.9 : 0.35);
+    this.body(pose, css(tracks ? "good" : "stale"), tracks ? 0.9 : 0.2);
   }
 
   /**
