@@ -1,6 +1,7 @@
 #include "services/viewer/viewer_service.h"
 
 #include <fmt/core.h>
+#include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -61,6 +62,7 @@ ViewerService::ViewerService(bus::Bus& bus, bus::Health& health, const ViewerSer
       server_(listening(config), owner()) {
   check(config);
   subscribe(config.robots);
+  spdlog::info("the page is at http://{}:{}/", config.address, server_.port());
   health_.raise("open", bus::Health::State::kWarning, open_sentence(config.address));
   viewer_.scene().board().put(
       "hello", fmt::format("{{\"token\":\"{}\",\"session\":\"{}\"}}", server_.token(), getpid()),

@@ -75,6 +75,7 @@ int run_desk(std::vector<std::string> arguments, Console& console) {
   add_localise(program, chosen);
   add_localise_only(program, chosen);
   add_hint(program, chosen);
+  add_listen(program, chosen);
   add_evaluate(program, chosen);
   add_edit(program, chosen);
   add_info(program, chosen);
