@@ -120,6 +120,13 @@ inline constexpr Channel<map_octree_t> kOctomap{"OCTOMAP"};
 inline constexpr const char* kGridPrefix = "GRID_";
 inline constexpr const char* kTraversabilityPrefix = "TRAVERSABILITY_";
 
+/// A 2D scan for one robot, made of CLOUD: SCAN_ and SCAN_FAR_, each with the robot's name, of type
+/// planar_lidar_t: the nearest point of each bearing within the robot's heights, and the furthest.
+/// +infinity: nothing seen; NaN: no ray there. Frame: base. Rate: each cloud. From grid_export to
+/// planners and localisers for flat worlds.
+inline constexpr const char* kScanPrefix = "SCAN_";
+inline constexpr const char* kScanFarPrefix = "SCAN_FAR_";
+
 /// Nearest obstacle in each bearing. Frame: base. Rate: each cloud or slice.
 /// From obstacle_detector to planners.
 inline constexpr Channel<obstacles_t> kObstacles{"OBSTACLES"};

@@ -43,7 +43,8 @@ GridExportService::GridExportService(bus::Bus& bus, bus::Health& health,
       folder_(folder_of(config)),
       occupied_{service::MapFollower(health), {}, {}},
       free_{service::MapFollower(health, service::kFreeSpaceSource), {}, {}},
-      builder_(config.robots.in_use()) {
+      builder_(config.robots.in_use()),
+      scans_(bus, health, builder_.robots()) {
   check(config);
   if (!folder_.empty()) io::remove_stale_temporaries(folder_);
   for (const planning::RobotProfile& robot : builder_.robots()) {
@@ -94,6 +95,7 @@ void GridExportService::ask(Input& input, std::int64_t now_us) {
 }
 
 void GridExportService::tick(std::int64_t now_us) {
+  scans_.tick(now_us);
   ask(occupied_, now_us);
   ask(free_, now_us);
   follow_mapper();

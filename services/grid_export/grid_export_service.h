@@ -8,6 +8,7 @@
 
 #include "services/grid_export/driven_way.h"
 #include "services/grid_export/grid_messages.h"
+#include "services/grid_export/scan_output.h"
 #include "voxlist/planning/grids/grid_builder.h"
 #include "voxlist/planning/profiles/robot_profile.h"
 #include "voxlist/service/inputs/map_follower.h"
@@ -42,7 +43,7 @@ struct GridExportConfig {
 };
 
 /// Follows the mapper's map and publishes GRID_NAME and TRAVERSABILITY_NAME for each robot, and
-/// keeps them as files.
+/// keeps them as files. Of each CLOUD it makes SCAN_NAME and SCAN_FAR_NAME.
 class GridExportService {
  public:
   GridExportService(bus::Bus& bus, bus::Health& health, const GridExportConfig& config);
@@ -83,6 +84,7 @@ class GridExportService {
   Input occupied_, free_;
   DrivenWay way_;
   planning::GridBuilder builder_;
+  ScanOutput scans_;
   std::vector<planning::TypedGrid> grids_;
   std::vector<std::string> grid_channels_, traversability_channels_;
   GridSource source_;

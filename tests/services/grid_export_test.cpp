@@ -2,18 +2,23 @@
 #include <gtest/gtest.h>
 #include <zlib.h>
 
+#include <cmath>
 #include <functional>
+#include <map>
 #include <memory>
 #include <stdexcept>
 #include <vector>
 #include <voxlist/keyframe_t.hpp>
 #include <voxlist/map_request_t.hpp>
 #include <voxlist/map_update_t.hpp>
+#include <voxlist/planar_lidar_t.hpp>
+#include <voxlist/pointcloud_t.hpp>
 
 #include "services/grid_export/grid_export_service.h"
 #include "tests/stand_in_mapper.h"
 #include "tests/temporary_folder.h"
 #include "voxlist/bus/bus.h"
+#include "voxlist/bus/convert.h"
 #include "voxlist/bus/health.h"
 #include "voxlist/bus/maps/map_convert.h"
 
@@ -143,6 +148,27 @@ class GridExport : public ::testing::Test {
   std::vector<pixel_map_t> pixels_;
   std::int64_t now_us_ = 1000 * kSecond_us;
 };
+
+TEST_F(GridExport, MakesOfEachCloudAScanForEachRobotWithoutAMap) {
+  std::map<std::string, planar_lidar_t> scans;
+  for (const char* channel : {"SCAN_low", "SCAN_tall", "SCAN_FAR_low", "SCAN_FAR_tall"})
+    bus_.subscribe(bus::Channel<planar_lidar_t>{channel},
+                   [&scans, channel](const planar_lidar_t& m) { scans[channel] = m; });
+  // A table top, a wall behind it, and rays that come from 1 m above the floor.
+  Cloud cloud{5 * kSecond_us, {{2.F, 0.F, 0.7F}, {4.F, 0.F, 0.3F}}, {}};
+  cloud.origins.assign(2, {0.F, 0.F, 1.F});
+  bus_.publish(bus::kCloud, bus::to_message(cloud, "base", 1));
+  handle();
+  ASSERT_THAT(scans, SizeIs(4));
+  EXPECT_EQ(scans["SCAN_low"].utime, 5 * kSecond_us);
+  EXPECT_FLOAT_EQ(scans["SCAN_low"].ranges.at(0), 4.F);
+  EXPECT_FLOAT_EQ(scans["SCAN_tall"].ranges.at(0), 2.F);
+  EXPECT_FLOAT_EQ(scans["SCAN_FAR_low"].ranges.at(0), 4.F);
+  EXPECT_FLOAT_EQ(scans["SCAN_FAR_tall"].ranges.at(0), 4.F);
+  EXPECT_TRUE(std::isnan(scans["SCAN_low"].ranges.at(1)));
+  EXPECT_NEAR(scans["SCAN_low"].radstep * static_cast<float>(scans["SCAN_low"].nranges), 6.2832F,
+              1e-4F);
+}
 
 TEST_F(GridExport, MakesAGridForEachRobotOfWhatTheMapperHas) {
   run(8);
