@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tests/bench/figures.h"
+#include "tests/bench/paths/grid_paths.h"
 #include "tests/bench/paths/octomap_paths.h"
 
 namespace voxlist::bench {
@@ -45,6 +46,8 @@ int main(int argc, char** argv) {
     const std::string where = ", seed " + std::to_string(seed);
     tell("octomap_planner, low robot" + where, plan_in_octomap(seed, errands, kLowRobot));
     tell("octomap_planner, tall robot" + where, plan_in_octomap(seed, errands, kTallRobot));
+    tell("grid_planner, low robot" + where, plan_in_grid(seed, errands, kLowRobot));
+    tell("grid_planner, tall robot" + where, plan_in_grid(seed, errands, kTallRobot));
   }
   if (csv) append_csv(*csv, "bench_paths", figures);
 }

@@ -8,6 +8,8 @@
 #include <stdexcept>
 
 #include "tests/simulation/sphere_scan.h"
+#include "voxlist/simulation/scanner/ideal_sweep.h"
+#include "voxlist/simulation/world/robot.h"
 #include "voxlist/simulation/world/tour.h"
 
 namespace voxlist::bench {
@@ -52,6 +54,18 @@ std::vector<PosedScan> scans_along_tour(const simulation::Building& building, do
     const Pose2 pose{tour[i].x(), tour[i].y(), 0.1 * static_cast<double>(i)};
     scans.push_back({pose, simulation::scan_sphere(world, pose, laser, seed + i)});
   }
+  return scans;
+}
+
+std::vector<PosedScan> mirror_scans_along_tour(const simulation::Building& building,
+                                               std::uint64_t seed) {
+  const simulation::Trajectory way =
+      simulation::drive(simulation::plan_tour(building, {}), simulation::DriveConfig{});
+  const simulation::World world(building);
+  const simulation::MirrorScanner scanner(world, way, {}, seed);
+  std::vector<PosedScan> scans;
+  for (double t_s = 1.0; t_s < way.duration_s(); t_s += 1.0)
+    scans.push_back({way.at(t_s), simulation::scan_sweep(scanner, way, t_s, {}, seed)});
   return scans;
 }
 

@@ -30,6 +30,10 @@ struct PosedScan {
 std::vector<PosedScan> scans_along_tour(const simulation::Building& building, double spacing_m,
                                         std::uint64_t seed);
 
+/// The scans of a robot with the mirror scanner that drives that tour, one a second.
+std::vector<PosedScan> mirror_scans_along_tour(const simulation::Building& building,
+                                               std::uint64_t seed);
+
 /// Corners of what a robot may drive in.
 struct Area {
   Eigen::Vector2d low, high;
