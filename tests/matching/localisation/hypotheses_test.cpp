@@ -60,6 +60,22 @@ TEST(Hypotheses, LearnNothingMoreFromStandingStill) {
   EXPECT_DOUBLE_EQ(hypotheses.modes().front().probability, first);
 }
 
+// However long it was elsewhere.
+TEST(Hypotheses, BelieveARobotThatComesBack) {
+  Hypotheses hypotheses;
+  Pose2 pose;
+  const auto see = [&](double support) {
+    hypotheses.move({0.5, 0.0, 0.0});
+    pose.x_m += 0.5;
+    hypotheses.update({candidate(pose, support)}, kUnseen);
+    return hypotheses.modes().front().probability;
+  };
+  for (int scan = 0; scan < 40; ++scan) EXPECT_LT(see(0.6), 0.01);
+  EXPECT_LT(see(0.98), 0.5) << "one scan may err";
+  for (int scan = 0; scan < 7; ++scan) see(0.98);
+  EXPECT_GT(see(0.98), 0.996);
+}
+
 TEST(Hypotheses, KeepAlikeHypothesesEqualHoweverFarTheRobotDrives) {
   Hypotheses hypotheses;
   double x_m = 0.0;
