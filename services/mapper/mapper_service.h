@@ -143,8 +143,7 @@ class MapperService {
   bool is_confirmed_ = false;  // a cloud was placed by what the map's first one saw
   service::CloudInput cloud_input_;
   std::deque<Cloud> recent_clouds_;
-  // Bytes on the bus: what waits of a whole map takes half of them, of keyframes none.
-  bus::PacedSender sender_{bus::PacedSender::Options{.max_queued_bytes = 1'200'000'000}};
+  bus::PacedSender sender_;
   MapChannel map_channel_, free_channel_;
   EditChannel edit_channel_;
   bool is_free_space_wanted_ = false;

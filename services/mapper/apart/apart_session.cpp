@@ -13,8 +13,8 @@
 namespace voxlist::services {
 namespace {
 
-using mapping::ScanMoment;
 using matching::Localisation;
+using matching::ScanMoment;
 
 // Most bytes of a piece that are kept: what comes then is of another piece.
 constexpr std::size_t kMostBytes = 256'000'000;
@@ -84,15 +84,15 @@ void ApartSession::lost(const Cloud& cloud, const std::optional<Pose2>& T_odom_b
 bool ApartSession::has_left_map(const ScanMoment& now, const Localisation& in_map) const {
   if (found_ == 0) return is_saved_;
   if (found_ < kFewest && !is_saved_) return false;
-  return !mapping::is_followed(in_map) &&
-         !mapping::is_near(in_map_, now, in_map, localiser_.max_speed_mps);
+  return !matching::is_followed(in_map) &&
+         !matching::is_near(in_map_, now, in_map, localiser_.max_speed_mps);
 }
 
 // Of a piece of one cloud, that may be the bad one.
 bool ApartSession::is_left_by(const ScanMoment& now, const Localisation& found) const {
-  if (mapping::is_followed(found)) return false;
+  if (matching::is_followed(found)) return false;
   return piece_->trajectory().size() < 2 ||
-         !mapping::is_near(*in_piece_, now, found, localiser_.max_speed_mps);
+         !matching::is_near(*in_piece_, now, found, localiser_.max_speed_mps);
 }
 
 void ApartSession::go_on(const Cloud& cloud, const ScanMoment& now) {

@@ -10,9 +10,9 @@
 #include "services/mapper/apart/apart_file.h"
 #include "voxlist/geometry/cloud.h"
 #include "voxlist/mapping/map_builder.h"
-#include "voxlist/mapping/pieces/leaving.h"
 #include "voxlist/mapping/pieces/piece.h"
 #include "voxlist/mapping/pieces/piece_joint.h"
+#include "voxlist/matching/localisation/leaving.h"
 
 namespace voxlist::bus {
 class Health;
@@ -50,14 +50,14 @@ class ApartSession {
 
  private:
   void take_up(const std::filesystem::path& left);
-  bool has_left_map(const mapping::ScanMoment& now, const matching::Localisation& in_map) const;
-  void go_on(const Cloud& cloud, const mapping::ScanMoment& now);
-  matching::Localisation look(const Cloud& cloud, const mapping::ScanMoment& now);
-  void begin(const Cloud& cloud, const mapping::ScanMoment& now);
+  bool has_left_map(const matching::ScanMoment& now, const matching::Localisation& in_map) const;
+  void go_on(const Cloud& cloud, const matching::ScanMoment& now);
+  matching::Localisation look(const Cloud& cloud, const matching::ScanMoment& now);
+  void begin(const Cloud& cloud, const matching::ScanMoment& now);
   void take(const Cloud& cloud, const matching::Localisation& found,
-            const mapping::ScanMoment& now);
+            const matching::ScanMoment& now);
   void keep(ApartCloud keyframe);
-  bool is_left_by(const mapping::ScanMoment& now, const matching::Localisation& found) const;
+  bool is_left_by(const matching::ScanMoment& now, const matching::Localisation& found) const;
   void join(const Pose2& T_map_piece);
   void leave();
   void end_piece();
@@ -69,13 +69,13 @@ class ApartSession {
   const bool is_saved_;
   ApartFile file_;
   // The last cloud that was found in the map, and how many were since this session began.
-  mapping::ScanMoment in_map_;
+  matching::ScanMoment in_map_;
   std::int64_t found_ = 0;
   // The piece that the robot is in, its keyframes, the oldest first, and its last cloud that fit.
   std::unique_ptr<mapping::Piece> piece_;
   std::deque<ApartCloud> kept_;
   std::size_t bytes_ = 0;
-  std::optional<mapping::ScanMoment> in_piece_;
+  std::optional<matching::ScanMoment> in_piece_;
   // What clouds say that fit map and piece, and where in the piece the last of them was taken.
   mapping::PieceJoint joint_;
   std::optional<Pose2> asked_at_;

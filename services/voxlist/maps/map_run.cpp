@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "services/voxlist/output/stop.h"
-#include "voxlist/mapping/pieces/leaving.h"
+#include "voxlist/matching/localisation/leaving.h"
 #include "voxlist/matching/localisation/reach_match.h"
 #include "voxlist/matching/localisation/thread_arena.h"
 
@@ -79,7 +79,7 @@ void MapRun::localise(const Scan& scan) {
   if (found.tracking()) return take(scan, found);
   note_lost(scan, found.state);
   // Not searched for at the end: what did not hold it now may seem to hold it elsewhere.
-  if (mapping::is_followed(found)) return;
+  if (matching::is_followed(found)) return;
   is_near(scan, found) ? wait(scan) : begin_piece(scan, found);
 }
 
@@ -193,8 +193,9 @@ bool MapRun::go_back(const Scan& scan) {
 // Whether the next scan, or the one after, fits the piece that the robot is in.
 bool MapRun::is_near(const Scan& scan, const Localisation& found) const {
   if (!is_confirmed(*now_) || now_->trajectory().empty()) return false;
-  return mapping::is_near({now_->trajectory().back().utime_us, T_odom_placed_},
-                          {scan.cloud.utime_us, scan.T_odom_base}, found, localiser_.max_speed_mps);
+  return matching::is_near({now_->trajectory().back().utime_us, T_odom_placed_},
+                           {scan.cloud.utime_us, scan.T_odom_base}, found,
+                           localiser_.max_speed_mps);
 }
 
 // The scan belongs to no piece; at the end it is searched for.

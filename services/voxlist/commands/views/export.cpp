@@ -7,8 +7,6 @@
 #include <vector>
 
 #include "services/voxlist/commands/command.h"
-#include "services/voxlist/commands/settings.h"
-#include "services/voxlist/commands/views/mcap_export.h"
 #include "services/voxlist/output/console.h"
 #include "services/voxlist/output/stop.h"
 #include "voxlist/io/clouds/cloud_file.h"
@@ -23,9 +21,8 @@ namespace {
 namespace fs = std::filesystem;
 
 struct ExportOptions {
-  fs::path input;  // a map folder, or a log
-  fs::path folder, mcap, config;
-  PrefixOption prefix;
+  fs::path map;
+  fs::path folder;
 };
 
 void make_empty_folder(const fs::path& folder) {
@@ -71,7 +68,7 @@ class Table {
 };
 
 int export_map(const ExportOptions& options, Console& console) {
-  mapping::KeyframeReader reader(options.input / mapping::kKeyframeFile);
+  mapping::KeyframeReader reader(options.map / mapping::kKeyframeFile);
   make_empty_folder(options.folder);
   Table table;
   while (!stop_requested()) {
@@ -91,42 +88,23 @@ int export_map(const ExportOptions& options, Console& console) {
   return 0;
 }
 
-int run(const ExportOptions& options, Console& console) {
-  if (options.mcap.empty()) return export_map(options, console);
-  return export_mcap({options.input, options.mcap, options.prefix.of(options.config)}, console);
-}
-
-void add_options(CLI::App& command, ExportOptions& options) {
-  command
-      .add_option("INPUT", options.input,
-                  "map folder, as voxlist map or the mapper made it; with --mcap an LCM log")
-      ->required();
-  CLI::Option_group* what = command.add_option_group("What");
-  what->require_option(1);
-  what->add_option("-o,--output", options.folder,
-                   "folder to make of a map folder: scan_0000.ply and so on, with poses.csv");
-  what->add_option(
-      "--mcap", options.mcap,
-      "file to write of a log, for Foxglove, Lichtblick or Rerun: all messages as they "
-      "were, and map, path, clouds, poses, obstacles, grids as those know them");
-  command.add_option("--config", options.config, "the robot's settings, for its prefix in a log");
-  options.prefix.add_to(command);
-}
-
 }  // namespace
 
 void add_export(CLI::App& program, Command& chosen) {
   CLI::App* command = program.add_subcommand(
-      "export", "For other programs: a map's keyframes as scans with poses.csv, or a log as MCAP.");
+      "export",
+      "Writes a map's keyframes as a folder of scans with poses.csv, for other programs.");
   const auto options = std::make_shared<ExportOptions>();
-  add_options(*command, *options);
+  command->add_option("MAPDIR", options->map, "map folder, as voxlist map or the mapper made it")
+      ->required();
+  command->add_option("-o,--output", options->folder, "folder to make, scan_0000.ply and so on")
+      ->required();
   command->footer(
-      "Examples:\n"
+      "Example:\n"
       "  voxlist export hall_map -o hall_scans && \\\n"
-      "    voxlist map hall_scans -o again --use-poses hall_scans/poses.csv\n"
-      "  voxlist export run.lcm --mcap run.mcap");
+      "    voxlist map hall_scans -o again --use-poses hall_scans/poses.csv");
   command->callback([options, &chosen] {
-    chosen = [options](Console& console) { return run(*options, console); };
+    chosen = [options](Console& console) { return export_map(*options, console); };
   });
 }
 

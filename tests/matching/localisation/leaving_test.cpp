@@ -1,8 +1,8 @@
-#include "voxlist/mapping/pieces/leaving.h"
+#include "voxlist/matching/localisation/leaving.h"
 
 #include <gtest/gtest.h>
 
-namespace voxlist::mapping {
+namespace voxlist::matching {
 namespace {
 
 constexpr double kSpeed_mps = 2.0;
@@ -19,7 +19,7 @@ TEST(Leaving, TakesAsLongAsTheRobotNeedsForTenMetres) {
 }
 
 TEST(Leaving, TakesTenMetresOfOdometryWhereTheRobotIsFollowed) {
-  matching::Localisation found;
+  Localisation found;
   EXPECT_TRUE(is_near(moment(0.0, 0.0), moment(60.0, 9.0), found, kSpeed_mps));
   EXPECT_FALSE(is_near(moment(0.0, 0.0), moment(60.0, 11.0), found, kSpeed_mps));
   found.searched_whole_map = true;
@@ -27,7 +27,7 @@ TEST(Leaving, TakesTenMetresOfOdometryWhereTheRobotIsFollowed) {
 }
 
 TEST(Leaving, IsNotWhereOnlyOneDirectionIsOpen) {
-  matching::Localisation found;
+  Localisation found;
   EXPECT_FALSE(is_followed(found));
   found.confidence = 0.999;
   found.modes.resize(1);
@@ -38,4 +38,4 @@ TEST(Leaving, IsNotWhereOnlyOneDirectionIsOpen) {
 }
 
 }  // namespace
-}  // namespace voxlist::mapping
+}  // namespace voxlist::matching
