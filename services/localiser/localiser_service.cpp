@@ -19,7 +19,6 @@
 #include "voxlist/bus/health.h"
 #include "voxlist/bus/maps/map_convert.h"
 #include "voxlist/geometry/angle.h"
-#include "voxlist/system/memory.h"
 
 namespace voxlist::services {
 namespace {
@@ -135,9 +134,6 @@ void LocaliserService::take_map(const map_update_t& message) {
     const bus::AppliedChange applied = bus::apply(change, map_);
     if (!applied.replaced) localiser_.map_changed(applied.changed);
     follow_move(change);
-    if (change.packed.empty()) continue;
-    change.packed.clear();
-    give_memory_back();
   }
   follow_mapper();
 }
@@ -209,7 +205,21 @@ LocaliserService::Answer LocaliserService::localise(Waiting waiting) {
   answer.found = locate(answer.waiting.cloud, answer.T_odom_base);
   answer.elapsed_us =
       std::chrono::duration_cast<std::chrono::microseconds>(Clock::now() - start).count();
+  note_leaving(answer);
   return answer;
+}
+
+// Where the robot may be anywhere, what looks like the place that is expected is no more likely
+// than another place that does.
+void LocaliserService::note_leaving(const Answer& answer) {
+  const matching::ScanMoment now{answer.found.utime_us, answer.T_odom_base};
+  if (answer.found.tracking())
+    placed_ = now;
+  else if (placed_ && !matching::is_followed(answer.found) &&
+           !matching::is_near(*placed_, now, answer.found, config_.localiser.max_speed_mps)) {
+    placed_.reset();
+    localiser_.forget();
+  }
 }
 
 void LocaliserService::decide(Answer answer, std::int64_t now_us) {

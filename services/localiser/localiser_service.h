@@ -8,6 +8,7 @@
 #include "services/localiser/origin_doubt.h"
 #include "services/localiser/pose_output.h"
 #include "voxlist/geometry/odometry_buffer.h"
+#include "voxlist/matching/localisation/leaving.h"
 #include "voxlist/matching/localisation/localiser.h"
 #include "voxlist/service/inputs/cloud_input.h"
 #include "voxlist/service/inputs/map_follower.h"
@@ -89,6 +90,7 @@ class LocaliserService {
   void follow_move(const bus::MapChange& change);
   bool map_is_due(std::int64_t now_us);
   Answer localise(Waiting waiting);
+  void note_leaving(const Answer& answer);
   void decide(Answer answer, std::int64_t now_us);
   bool is_first_in_doubt(const Answer& answer);
   bool has_undecided(std::int64_t now_us);
@@ -117,7 +119,8 @@ class LocaliserService {
   service::CloudInput cloud_input_;
   service::ChannelCheck odometry_check_;
   OdometryBuffer odometry_;
-  std::deque<Waiting> waiting_;  // oldest first
+  std::deque<Waiting> waiting_;                 // oldest first
+  std::optional<matching::ScanMoment> placed_;  // the last cloud that was, until the map is left
   // The last cloud that the mapper may have added, and since when its answer is awaited.
   std::optional<std::int64_t> unanswered_utime_us_;
   std::optional<std::int64_t> unanswered_since_us_;

@@ -5,6 +5,7 @@
 
 #include "tests/services/localiser_and_mapper.h"
 #include "tests/stored_map.h"
+#include "tests/temporary_folder.h"
 
 namespace voxlist::services {
 namespace {
@@ -35,8 +36,21 @@ Cloud covered() {
   return cloud;
 }
 
-class FirstCloud : public LocaliserAndMapper {
+class FirstCloud : public testing::Test {
  protected:
+  std::int64_t send(Cloud cloud) { return live_.send(std::move(cloud)); }
+  void start_localiser() { live_.start_localiser(); }
+
+  const localisation_t* answer_to(std::int64_t utime_us) const {
+    const localisation_t* found = nullptr;
+    for (const localisation_t& answer : live_.answers) {
+      if (answer.utime != utime_us) continue;
+      EXPECT_EQ(found, nullptr) << "answered twice";
+      found = &answer;
+    }
+    return found;
+  }
+
   bool is_tracking(std::int64_t utime_us, double x_m) const {
     const localisation_t* answer = answer_to(utime_us);
     return answer != nullptr && answer->state == localisation_t::STATE_TRACKING &&
@@ -47,6 +61,9 @@ class FirstCloud : public LocaliserAndMapper {
     const localisation_t* answer = answer_to(utime_us);
     return answer != nullptr && answer->state != localisation_t::STATE_TRACKING;
   }
+
+  const test::TemporaryFolder folder_;
+  LocaliserAndMapper live_{folder_.string()};
 };
 
 TEST_F(FirstCloud, IsGivenUpWhenTheNextTwoFitEachOtherAlone) {
