@@ -15,6 +15,7 @@
 #include "voxlist/mapping/graph/loop_closing.h"
 #include "voxlist/mapping/loops/loop_search.h"
 #include "voxlist/mapping/loops/neighbours.h"
+#include "voxlist/simulation/random.h"
 
 namespace voxlist::bench {
 namespace {
@@ -49,6 +50,29 @@ mapping::ReadCloud scans_of(const simulation::World& world, const TwinDrive& dri
   };
 }
 
+// Ten groups of three wrong loops that agree with each other, of looks of their own: half of them
+// where the drive may well have been, the others up to 20 m off.
+std::vector<Loop> with_forged(std::vector<Loop> loops, const std::vector<Pose2>& truth, int seed) {
+  simulation::Random random(static_cast<std::uint64_t>(seed), 31);
+  const Loop real = loops.front();
+  const double half = static_cast<double>(truth.size()) / 2.0;
+  for (std::size_t group = 0; group < 10; ++group) {
+    const auto from = static_cast<std::size_t>(random.uniform(0.0, half - 4.0));
+    const auto to = static_cast<std::size_t>(random.uniform(half, 2.0 * half - 4.0));
+    const double far_m = group % 2 == 0 ? 1.0 : 20.0;
+    const Pose2 off{random.uniform(0.5, far_m), random.uniform(0.5, far_m), 0.0};
+    for (std::size_t i = 0; i < 3; ++i) {
+      Loop& forged = loops.emplace_back(real);
+      forged.edge.from = from + i;
+      forged.edge.to = to + i;
+      forged.edge.T_from_to.pose = (off * truth[from + i]).inverse() * truth[to + i];
+      forged.look = 1'000'000 + 3 * group + i;
+      forged.probability = 1.0;
+    }
+  }
+  return loops;
+}
+
 std::vector<Figure> run(int rooms, int seed, bool blind) {
   const simulation::Building building = twin_offices(rooms, seed);
   const simulation::World world(building);
@@ -62,6 +86,9 @@ std::vector<Figure> run(int rooms, int seed, bool blind) {
   const mapping::ClosedDrive open = close_loops(tree, steps, {}, first);
   const mapping::ClosedDrive closed = close_loops(tree, steps, loops, first);
   const double took_ms = cpu_ms() - start_ms;
+  const mapping::ClosedDrive forged =
+      loops.empty() ? closed
+                    : close_loops(tree, steps, with_forged(loops, drive.truth, seed), first);
   const auto right = std::count_if(closed.loops.begin(), closed.loops.end(),
                                    [&](const Loop& loop) { return is_right(loop, drive.truth); });
   const std::size_t looks = loops.size();
@@ -76,6 +103,11 @@ std::vector<Figure> run(int rooms, int seed, bool blind) {
       figure("places_named_right", static_cast<double>(loops.size())),
       figure("loops", static_cast<double>(closed.loops.size())),
       figure("wrong_loops", static_cast<double>(closed.loops.size()) - static_cast<double>(right)),
+      figure("wrong_loops_with_30_forged",
+             static_cast<double>(
+                 std::count_if(forged.loops.begin(), forged.loops.end(),
+                               [&](const Loop& loop) { return !is_right(loop, drive.truth); }))),
+      figure("rmse_with_30_forged_m", rmse_m(forged.poses, drive.truth)),
       figure("rmse_by_wheels_m", rmse_m(drive.T_odom_base, drive.truth)),
       figure("rmse_without_loops_m", rmse_m(open.poses, drive.truth)),
       figure("rmse_m", rmse_m(closed.poses, drive.truth)),
