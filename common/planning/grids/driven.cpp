@@ -1,15 +1,46 @@
 #include "voxlist/planning/grids/driven.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace voxlist::planning {
 namespace {
 
+// Floors are looked for so far about the way, and so far below base and above it (m).
+constexpr double kAbout_m = 2.0, kDeepest_m = 3.0, kHighest_m = 0.1;
+
+// Heights that are told apart (m).
+constexpr double kBin_m = 0.05;
+
+// At base's own height are floors where so many columns say so, of those that say the most.
+constexpr double kFew = 0.1;
+
+constexpr std::size_t kPlaces = 100;
+
+// How many columns have a surface at each height, from kDeepest_m below base on.
+using Heights = std::array<int, static_cast<std::size_t>((kDeepest_m + kHighest_m) / kBin_m + 0.5)>;
+
+std::size_t bin_of(double height_m) {
+  return static_cast<std::size_t>((height_m + kDeepest_m) / kBin_m);
+}
+
+std::int32_t cell_at(double m) { return static_cast<std::int32_t>(std::floor(m / kColumn_m)); }
+
+void count_surfaces(const FloorColumns& columns, const Eigen::Vector3d& at, Heights& heights) {
+  for (std::int32_t y = cell_at(at.y() - kAbout_m); y <= cell_at(at.y() + kAbout_m); ++y)
+    for (std::int32_t x = cell_at(at.x() - kAbout_m); x <= cell_at(at.x() + kAbout_m); ++x)
+      for (const Span& span : columns.at({x, y}).spans) {
+        const double height_m = span.surface_m - at.z();
+        if (height_m < -kDeepest_m || height_m >= kHighest_m - kBin_m / 2) continue;
+        ++heights[bin_of(height_m)];
+        break;  // the lowest one
+      }
+}
+
 void add_disc(const Eigen::Vector3d& at, std::vector<DrivenCell>& cells) {
-  const auto cell = [](double m) { return static_cast<std::int32_t>(std::floor(m / kColumn_m)); };
-  for (std::int32_t y = cell(at.y() - kDriven_m); y <= cell(at.y() + kDriven_m); ++y)
-    for (std::int32_t x = cell(at.x() - kDriven_m); x <= cell(at.x() + kDriven_m); ++x) {
+  for (std::int32_t y = cell_at(at.y() - kDriven_m); y <= cell_at(at.y() + kDriven_m); ++y)
+    for (std::int32_t x = cell_at(at.x() - kDriven_m); x <= cell_at(at.x() + kDriven_m); ++x) {
       const Eigen::Vector2d centre = Eigen::Vector2d(x + 0.5, y + 0.5) * kColumn_m;
       if ((centre - at.head<2>()).norm() <= kDriven_m)
         cells.push_back({{x, y}, static_cast<float>(at.z())});
@@ -17,6 +48,17 @@ void add_disc(const Eigen::Vector3d& at, std::vector<DrivenCell>& cells) {
 }
 
 }  // namespace
+
+float floor_under_base_m(const FloorColumns& columns, const std::vector<Eigen::Vector3d>& way) {
+  Heights heights{};
+  const std::size_t step = 1 + way.size() / kPlaces;
+  for (std::size_t i = 0; i < way.size(); i += step) count_surfaces(columns, way[i], heights);
+  const auto most = std::ranges::max_element(heights);
+  const int at_base = heights[bin_of(-kBin_m / 2)] + heights[bin_of(kBin_m / 2)];
+  if (at_base >= kFew * *most) return 0.0F;
+  const auto bin = static_cast<double>(most - heights.begin());
+  return static_cast<float>((bin + 0.5) * kBin_m - kDeepest_m);
+}
 
 std::vector<DrivenCell> driven_cells(const std::vector<Eigen::Vector3d>& way) {
   std::vector<DrivenCell> cells;

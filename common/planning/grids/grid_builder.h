@@ -39,6 +39,8 @@ class GridBuilder {
   std::vector<TypedGrid> grids() const;
 
  private:
+  std::vector<DrivenCell> driven_from_origin() const;
+
   std::vector<RobotProfile> robots_;
   FloorColumns columns_;
   std::vector<Eigen::Vector3d> way_;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/planning/grids/drawn_map.h"
+#include "voxlist/planning/grids/grid_builder.h"
 
 namespace voxlist::planning {
 namespace {
@@ -170,6 +171,15 @@ TEST(TypedGrid, StartsAtTheHeightThatTheRobotDroveAt) {
   drawn.floor({-10, -10}, {30, 30}, 100);
   EXPECT_EQ(grid_of(drawn, kTall, 2.0).at({20, 20}), CellType::kFree);
   EXPECT_NE(grid_of(drawn, kTall, 1.0).at({20, 20}), CellType::kFree);
+}
+
+TEST(TypedGrid, HasTheFloorBelowBaseWhereScansAreToldInTheScannersFrame) {
+  DrawnMap drawn;
+  drawn.floor({-10, -10}, {30, 30}, -40);
+  GridBuilder builder({kTall});
+  builder.take(drawn.map, drawn.free);
+  builder.drive({{0.12, 0.12, 0.0}});
+  EXPECT_EQ(builder.grids().front().at({20, 20}), CellType::kFree);
 }
 
 TEST(TypedGrid, IsFreeWhereTheRobotDroveAndNoRayMetTheFloor) {
