@@ -1,14 +1,19 @@
 // Grids of simulated buildings for a low robot and a tall one, against what is truly there.
-// Arguments: FIRST_SEED LAST_SEED [PICTURES_FOLDER]; without: seed 1.
+// Arguments: FIRST_SEED LAST_SEED [PICTURES_FOLDER], or "large": time and memory of a map of 200 x
+// 150 m; without: seed 1.
+#include <algorithm>
 #include <array>
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <optional>
+#include <cstring>
+#include <string>
 
+#include "tests/bench/figures.h"
 #include "tests/bench/grids/grid_scene.h"
 #include "tests/bench/grids/true_grid.h"
+#include "voxlist/planning/grids/grid_builder.h"
 #include "voxlist/planning/grids/grid_files.h"
+#include "voxlist/system/memory.h"
 
 namespace voxlist::bench {
 namespace {
@@ -33,74 +38,160 @@ bool is_seen(const planning::Column& column) {
   return false;
 }
 
-using Counts = std::array<std::array<long, 5>, 5>;  // truth, then type
+// What cells truly are, and what they are typed as.
+struct Counts {
+  std::array<std::array<long, 5>, 5> cells{};
+  long free_alone = 0;  // obstacles and holes typed free, with nothing but free cells about them
 
-void print(const char* robot, int seed, const Counts& counts) {
-  std::printf("seed %d, %s\n%10s", seed, robot, "true");
-  for (const char* type : kTypes) std::printf("%10s", type);
-  for (std::size_t i = 0; i < counts.size(); ++i) {
-    std::printf("\n%10s", kTrue[i]);
-    for (const long count : counts[i]) std::printf("%10ld", count);
+  long& at(TrueCell truth, CellType type) {
+    return cells[static_cast<std::size_t>(truth)][static_cast<std::size_t>(type)];
   }
+
+  void add(const Counts& other) {
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      for (std::size_t j = 0; j < cells[i].size(); ++j) cells[i][j] += other.cells[i][j];
+    free_alone += other.free_alone;
+  }
+};
+
+void print(const std::string& title, const Counts& counts) {
+  std::printf("%s\n%10s", title.c_str(), "true");
+  for (const char* type : kTypes) std::printf("%10s", type);
+  for (std::size_t i = 0; i < counts.cells.size(); ++i) {
+    std::printf("\n%10s", kTrue[i]);
+    for (const long count : counts.cells[i]) std::printf("%10ld", count);
+  }
+  const auto& c = counts.cells;
   long truly_free = 0;
-  for (const long count : counts[0]) truly_free += count;
-  const long wrongly_free = counts[1][1] + counts[2][1] + counts[3][1];
-  std::printf("\nfree IoU %.4f, wrongly free %ld\n",
-              static_cast<double>(counts[0][1]) / static_cast<double>(truly_free + wrongly_free),
-              wrongly_free);
+  for (const long count : c[0]) truly_free += count;
+  const long wrong = c[1][1] + c[2][1] + c[3][1];
+  const long hanging = c[2][1] + c[2][2] + c[2][3] + c[2][4];
+  std::printf(
+      "\nfree IoU %.4f; typed free: %ld obstacles and holes (%ld not beside one that is "
+      "told), %ld of %ld overhangs\n",
+      static_cast<double>(c[0][1]) / static_cast<double>(truly_free + wrong), c[1][1] + c[3][1],
+      counts.free_alone, c[2][1], hanging);
 }
 
-void list(const planning::TypedGrid& grid, const Cell& cell, TrueCell truth) {
-  if (std::getenv("VOXLIST_LIST") && truth != TrueCell::kBorder && truth != TrueCell::kFree &&
-      grid.at(cell) == CellType::kFree)
-    std::printf("  %s is free at %.2f %.2f\n", kTrue[static_cast<int>(truth)],
-                (cell.x + 0.5) * planning::kColumn_m, (cell.y + 0.5) * planning::kColumn_m);
+bool is_among_free_cells(const planning::TypedGrid& grid, const Cell& cell) {
+  for (std::int32_t i = 0; i < 9; ++i) {
+    const Cell beside{cell.x + i % 3 - 1, cell.y + i / 3 - 1};
+    if (grid.box.contains(beside) && grid.at(beside) != CellType::kFree) return false;
+  }
+  return true;
 }
 
-Counts compare(const GridScene& scene, const planning::FloorColumns& columns,
+Counts compare(const simulation::Building& building, const planning::FloorColumns& columns,
                const planning::TypedGrid& grid, const planning::RobotProfile& robot) {
-  Counts counts{};
+  Counts counts;
   for (std::int32_t y = grid.box.low.y; y < grid.box.high.y; ++y)
     for (std::int32_t x = grid.box.low.x; x < grid.box.high.x; ++x) {
       const Cell cell{x, y};
-      if (!is_seen(columns.at(cell)) && grid.at(cell) == CellType::kUnknown) continue;
-      const TrueCell truth = true_cell(scene.building, cell, robot);
-      ++counts[static_cast<std::size_t>(truth)][static_cast<std::size_t>(grid.at(cell))];
-      list(grid, cell, truth);
+      const CellType type = grid.at(cell);
+      if (!is_seen(columns.at(cell)) && type == CellType::kUnknown) continue;
+      const TrueCell truth = true_cell(building, cell, robot);
+      ++counts.at(truth, type);
+      const bool is_bad = truth == TrueCell::kObstacle || truth == TrueCell::kHole;
+      if (is_bad && type == CellType::kFree && is_among_free_cells(grid, cell)) ++counts.free_alone;
     }
   return counts;
 }
 
-void run(int seed, const char* pictures) {
-  const GridScene scene = grid_scene(seed);
-  std::vector<Eigen::Vector3d> way;
-  for (const StampedPose3& pose : scene.map.poses()) way.push_back(pose.pose.translation());
-  using Clock = std::chrono::steady_clock;
-  const auto a = Clock::now();
-  planning::FloorColumns columns;
-  columns.take(scene.map.map(), scene.map.free_space());
-  const auto b = Clock::now();
-  for (const auto& robot : {profile("low", 0.4), profile("tall", 1.7)}) {
-    const auto c = Clock::now();
-    const planning::Ground ground(columns, planning::driven_cells(way), robot.step_m);
-    const auto d = Clock::now();
-    const planning::TypedGrid grid = planning::type_cells(columns, ground, robot);
-    const auto e = Clock::now();
-    const auto ms = [](auto from, auto to) {
-      return std::chrono::duration<double, std::milli>(to - from).count();
-    };
-    std::printf("%zu keyframes, %d x %d cells: columns %.1f ms, ground %.1f ms, types %.1f ms\n",
-                way.size(), grid.box.width(), grid.box.height(), ms(a, b), ms(c, d), ms(d, e));
-    print(robot.name.c_str(), seed, compare(scene, columns, grid, robot));
-    if (pictures) planning::write_grid(grid, pictures, robot.name + std::to_string(seed));
+std::vector<planning::RobotProfile> robots() { return {profile("low", 0.4), profile("tall", 1.7)}; }
+
+void run_buildings(int first, int last, const char* pictures) {
+  std::array<Counts, 2> all;
+  for (int seed = first; seed <= last; ++seed) {
+    const GridScene scene = grid_scene(seed);
+    std::vector<Eigen::Vector3d> way;
+    for (const StampedPose3& pose : scene.map.poses()) way.push_back(pose.pose.translation());
+    planning::GridBuilder builder(robots());
+    builder.drive(way);
+    builder.take(scene.map.map(), scene.map.free_space());
+    const auto grids = builder.grids();
+    for (std::size_t i = 0; i < grids.size(); ++i) {
+      const std::string name = builder.robots()[i].name + std::to_string(seed);
+      const Counts counts =
+          compare(scene.building, builder.columns(), grids[i], builder.robots()[i]);
+      print(name, counts);
+      all[i].add(counts);
+      if (pictures) planning::write_grid(grids[i], pictures, name);
+    }
   }
+  for (std::size_t i = 0; i < all.size(); ++i) print("all, " + robots()[i].name, all[i]);
+}
+
+// A floor of 200 x 150 m with walls every 5 m along x, doors of 1 m in them, a ceiling.
+struct LargeMap {
+  LargeMap() {
+    constexpr std::int32_t kTilesX = 312, kTilesY = 234;
+    VoxelBlock all_free;
+    all_free.fill(~std::uint64_t{0});
+    for (std::int32_t y = 0; y < kTilesY; ++y)
+      for (std::int32_t x = 0; x < kTilesX; ++x) {
+        const bool is_wall = x % 8 == 7 && y % 8 > 1;
+        for (std::int32_t z = 0; z < 4; ++z)
+          if (!is_wall) free.passed.set_block({x, y, z}, all_free);
+        for (std::int32_t i = 0; i < 16; ++i) add(4 * x + i % 4, 4 * y + i / 4, is_wall);
+      }
+  }
+
+  // A column of blocks of 0.16 m.
+  void add(std::int32_t x, std::int32_t y, bool is_wall) {
+    map.occupied.set_block({x, y, -1}, {0, 0, 0, 0, 0, 0, 0, ~std::uint64_t{0}});
+    map.occupied.set_block({x, y, 16}, {~std::uint64_t{0}});
+    for (std::int32_t z = 0; is_wall && z < 16; ++z)
+      map.occupied.set_block({x, y, z}, VoxelBlock{1, 1, 1, 1, 1, 1, 1, 1});
+  }
+
+  OccupancyMap map, free{VoxelMap(kPassedResolution_m), VoxelMap(kPassedResolution_m)};
+};
+
+// What a cloud changes: blocks within 8 m.
+ChangedBlocks changed_about(const VoxelMap& blocks, double x_m, double y_m) {
+  ChangedBlocks changed;
+  const double edge_m = blocks.resolution_m() * kBlockEdge;
+  for (std::size_t i = 0; i < blocks.block_count(); ++i) {
+    const Voxel& at = blocks.block_position(i);
+    if (std::abs(at.x * edge_m - x_m) < 8.0 && std::abs(at.y * edge_m - y_m) < 8.0)
+      changed.occupied.push_back(at);
+  }
+  return changed;
+}
+
+void run_large() {
+  const auto resident_mb = [] { return static_cast<double>(memory_of_process()) * 1e-6; };
+  LargeMap large;
+  const double before_mb = resident_mb();
+  planning::GridBuilder builder(robots());
+  double start_ms = cpu_ms();
+  builder.take(large.map, large.free);
+  std::printf("columns of all: %.0f ms, %.0f MB of columns\n", cpu_ms() - start_ms,
+              static_cast<double>(builder.columns().memory_bytes()) * 1e-6);
+  start_ms = cpu_ms();
+  const auto grids = builder.grids();
+  std::printf("%d x %d cells, %zu grids: %.0f ms, %.0f MB more than the map's\n",
+              grids.front().box.width(), grids.front().box.height(), grids.size(),
+              cpu_ms() - start_ms, resident_mb() - before_mb);
+  ChangedBlocks free_changed = changed_about(large.free.passed, 100.0, 75.0);
+  const ChangedBlocks changed = changed_about(large.map.occupied, 100.0, 75.0);
+  start_ms = cpu_ms();
+  builder.follow(large.map, changed, large.free, free_changed);
+  const double follow_ms = cpu_ms() - start_ms;
+  const auto again = builder.grids();
+  std::printf("a cloud's change: columns %.0f ms, with grids %.0f ms; free cells %ld\n", follow_ms,
+              cpu_ms() - start_ms,
+              static_cast<long>(std::ranges::count(again.front().cells, CellType::kFree)));
 }
 
 }  // namespace
 }  // namespace voxlist::bench
 
 int main(int argc, char** argv) {
+  if (argc > 1 && std::strcmp(argv[1], "large") == 0) {
+    voxlist::bench::run_large();
+    return 0;
+  }
   const int first = argc > 1 ? std::atoi(argv[1]) : 1, last = argc > 2 ? std::atoi(argv[2]) : first;
-  for (int seed = first; seed <= last; ++seed)
-    voxlist::bench::run(seed, argc > 3 ? argv[3] : nullptr);
+  voxlist::bench::run_buildings(first, last, argc > 3 ? argv[3] : nullptr);
 }
