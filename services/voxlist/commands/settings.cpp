@@ -40,6 +40,14 @@ DeskSettings read_settings(const std::filesystem::path& file) {
   return settings;
 }
 
+planning::RobotProfiles read_robots(const std::filesystem::path& file) {
+  planning::RobotProfiles robots;
+  read(file, {config::root_section(robots)});
+  if (const std::string wrong = planning::why_invalid(robots); !wrong.empty())
+    throw std::runtime_error(file.string() + ": " + wrong);
+  return robots;
+}
+
 adapter::AdapterConfig read_adapter_settings(const std::filesystem::path& file) {
   adapter::AdapterConfig settings;
   read(file, {config::section("cloud_adapter", settings)});

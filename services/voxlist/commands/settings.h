@@ -9,6 +9,7 @@
 #include "voxlist/mapping/map_builder.h"
 #include "voxlist/matching/localisation/localiser.h"
 #include "voxlist/planning/octomap.h"
+#include "voxlist/planning/profiles/robot_profile.h"
 #include "voxlist/scanner/sweep/cloud_assembler_config.h"
 
 namespace CLI {
@@ -44,6 +45,9 @@ class PrefixOption {
 /// Reads the tables [localiser], [mapper], [octomap_export] and [cloud_adapter]; an empty path
 /// gives the defaults. Throws std::runtime_error with all complaints.
 DeskSettings read_settings(const std::filesystem::path& file);
+
+/// The same for the list [[robot]]; robots that cannot be told apart are a complaint, too.
+planning::RobotProfiles read_robots(const std::filesystem::path& file);
 
 /// The same for the table [cloud_adapter].
 adapter::AdapterConfig read_adapter_settings(const std::filesystem::path& file);

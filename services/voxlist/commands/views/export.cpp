@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "services/voxlist/commands/command.h"
+#include "services/voxlist/commands/views/export_views.h"
 #include "services/voxlist/output/console.h"
 #include "services/voxlist/output/stop.h"
 #include "voxlist/io/clouds/cloud_file.h"
@@ -23,6 +24,8 @@ namespace fs = std::filesystem;
 struct ExportOptions {
   fs::path map;
   fs::path folder;
+  fs::path config;
+  ViewOptions views;
 };
 
 void make_empty_folder(const fs::path& folder) {
@@ -88,23 +91,37 @@ int export_map(const ExportOptions& options, Console& console) {
   return 0;
 }
 
+// Views for planners, where any is wanted; else the scans.
+int run(const ExportOptions& options, Console& console) {
+  if (!options.views.any()) return export_map(options, console);
+  ViewOptions views = options.views;
+  views.map = options.map;
+  views.folder = options.folder;
+  views.config = options.config;
+  return export_views(views, console);
+}
+
 }  // namespace
 
 void add_export(CLI::App& program, Command& chosen) {
   CLI::App* command = program.add_subcommand(
       "export",
-      "Writes a map's keyframes as a folder of scans with poses.csv, for other programs.");
+      "Writes a map for other programs: its floor plan for each robot, distances, an OctoMap; "
+      "without any of these options its keyframes as a folder of scans with poses.csv.");
   const auto options = std::make_shared<ExportOptions>();
   command->add_option("MAPDIR", options->map, "map folder, as voxlist map or the mapper made it")
       ->required();
   command->add_option("-o,--output", options->folder, "folder to make, scan_0000.ply and so on")
       ->required();
+  command->add_option("--config", options->config, "the robot's settings: its list [[robot]]");
+  add_views(*command, options->views);
   command->footer(
-      "Example:\n"
+      "Examples:\n"
+      "  voxlist export hall_map -o plans --grid --config robot.toml\n"
       "  voxlist export hall_map -o hall_scans && \\\n"
       "    voxlist map hall_scans -o again --use-poses hall_scans/poses.csv");
   command->callback([options, &chosen] {
-    chosen = [options](Console& console) { return export_map(*options, console); };
+    chosen = [options](Console& console) { return run(*options, console); };
   });
 }
 
