@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+
+#include "voxlist/bus/maps/map_chunks.h"
+#include "voxlist/foreign/foxglove/messages.h"
+#include "voxlist/voxels/occupancy_map.h"
+
+namespace voxlist::foreign {
+
+/// The map as points: centres of voxels of `detail_m`, or of the map's own where those are larger.
+class MapPoints {
+ public:
+  explicit MapPoints(double detail_m) : detail_m_(detail_m) {}
+
+  /// How many blocks are new; at least 1 where the map became another one.
+  std::size_t apply(const bus::MapChange& change);
+
+  std::size_t blocks() const { return map_.occupied.block_count(); }
+  std::int64_t utime_us() const { return utime_us_; }
+  std::int64_t map_id() const { return map_id_; }
+
+  /// Cost: some 20 ns a voxel of the map.
+  Packed points() const;
+
+ private:
+  double detail_m_;
+  OccupancyMap map_;
+  std::int64_t utime_us_ = 0, map_id_ = 0;
+};
+
+}  // namespace voxlist::foreign
