@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <functional>
 #include <memory>
+#include <stdexcept>
 #include <vector>
 
 #include "services/voxlist/commands/command.h"
+#include "services/voxlist/commands/settings.h"
 #include "services/voxlist/commands/views/export_views.h"
+#include "services/voxlist/commands/views/mcap_export.h"
 #include "services/voxlist/output/console.h"
 #include "services/voxlist/output/stop.h"
 #include "voxlist/io/clouds/cloud_file.h"
@@ -22,9 +25,9 @@ namespace {
 namespace fs = std::filesystem;
 
 struct ExportOptions {
-  fs::path map;
-  fs::path folder;
-  fs::path config;
+  fs::path input;  // a map folder, or a log
+  fs::path folder, mcap, config;
+  PrefixOption prefix;
   ViewOptions views;
 };
 
@@ -71,7 +74,7 @@ class Table {
 };
 
 int export_map(const ExportOptions& options, Console& console) {
-  mapping::KeyframeReader reader(options.map / mapping::kKeyframeFile);
+  mapping::KeyframeReader reader(options.input / mapping::kKeyframeFile);
   make_empty_folder(options.folder);
   Table table;
   while (!stop_requested()) {
@@ -91,14 +94,37 @@ int export_map(const ExportOptions& options, Console& console) {
   return 0;
 }
 
-// Views for planners, where any is wanted; else the scans.
+// A log as MCAP; of a map, views for planners where any is wanted, else the scans.
 int run(const ExportOptions& options, Console& console) {
+  if (!options.mcap.empty() && options.views.any())
+    throw std::runtime_error("--mcap is of a log, the other views are of a map folder: give one");
+  if (!options.mcap.empty())
+    return export_mcap({options.input, options.mcap, options.prefix.of(options.config)}, console);
   if (!options.views.any()) return export_map(options, console);
   ViewOptions views = options.views;
-  views.map = options.map;
+  views.map = options.input;
   views.folder = options.folder;
   views.config = options.config;
   return export_views(views, console);
+}
+
+void add_options(CLI::App& command, ExportOptions& options) {
+  command
+      .add_option("INPUT", options.input,
+                  "map folder, as voxlist map or the mapper made it; with --mcap an LCM log")
+      ->required();
+  CLI::Option_group* what = command.add_option_group("What");
+  what->require_option(1);
+  what->add_option("-o,--output", options.folder,
+                   "folder to make of a map folder, scan_0000.ply and so on");
+  what->add_option(
+      "--mcap", options.mcap,
+      "file to write of a log, for Foxglove, Lichtblick or Rerun: all messages as they "
+      "were, and map, path, clouds, poses, obstacles, grids as those know them");
+  command.add_option("--config", options.config,
+                     "the robot's settings: its list [[robot]], and its prefix in a log");
+  options.prefix.add_to(command);
+  add_views(command, options.views);
 }
 
 }  // namespace
@@ -106,20 +132,16 @@ int run(const ExportOptions& options, Console& console) {
 void add_export(CLI::App& program, Command& chosen) {
   CLI::App* command = program.add_subcommand(
       "export",
-      "Writes a map for other programs: its floor plan for each robot, distances, an OctoMap; "
-      "without any of these options its keyframes as a folder of scans with poses.csv.");
+      "For other programs: a map's floor plan for each robot, distances, an OctoMap, or without "
+      "any of these options its keyframes as scans with poses.csv; a log as MCAP.");
   const auto options = std::make_shared<ExportOptions>();
-  command->add_option("MAPDIR", options->map, "map folder, as voxlist map or the mapper made it")
-      ->required();
-  command->add_option("-o,--output", options->folder, "folder to make, scan_0000.ply and so on")
-      ->required();
-  command->add_option("--config", options->config, "the robot's settings: its list [[robot]]");
-  add_views(*command, options->views);
+  add_options(*command, *options);
   command->footer(
       "Examples:\n"
       "  voxlist export hall_map -o plans --grid --config robot.toml\n"
       "  voxlist export hall_map -o hall_scans && \\\n"
-      "    voxlist map hall_scans -o again --use-poses hall_scans/poses.csv");
+      "    voxlist map hall_scans -o again --use-poses hall_scans/poses.csv\n"
+      "  voxlist export run.lcm --mcap run.mcap");
   command->callback([options, &chosen] {
     chosen = [options](Console& console) { return run(*options, console); };
   });

@@ -1,0 +1,22 @@
+# What the tests of others' readers share: npm's packages, in the build folder. Sourced, never run.
+# shellcheck shell=bash
+# shellcheck source=SCRIPTDIR/../../scripts/lib.sh
+source "$(dirname "${BASH_SOURCE[0]}")/../../scripts/lib.sh"
+
+node_tests=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+modules=${BUILD:?}/foreign_test
+for tool in node npm; do command -v "$tool" >/dev/null || skip "$tool is not installed"; done
+
+# Node finds packages beside the files that use them, so the tests run from a copy. One test at a time makes it.
+mkdir -p "$modules"
+exec 9>"$modules.lock"
+flock 9
+if ! cmp -s "$node_tests/package-lock.json" "$modules/package-lock.json" || [[ ! -d $modules/node_modules ]]; then
+  cp "$node_tests"/package*.json "$modules"
+  (cd "$modules" && npm ci --no-audit --no-fund --ignore-scripts >npm.log 2>&1) || {
+    rm "$modules/package-lock.json"
+    skip "npm cannot fetch the readers: $(tail -n 1 "$modules/npm.log")"
+  }
+fi
+cp "$node_tests"/*.js "$modules"
+exec 9>&-
