@@ -1,5 +1,6 @@
 #include "voxlist/system/memory.h"
 
+#include <malloc.h>
 #include <unistd.h>
 
 #include <fstream>
@@ -18,6 +19,8 @@ std::int64_t memory_of_machine() {
   static const std::int64_t bytes = ask();
   return bytes;
 }
+
+void give_memory_back() { ::malloc_trim(0); }
 
 std::int64_t memory_of_process() {
   std::ifstream file("/proc/self/statm");

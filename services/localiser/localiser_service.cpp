@@ -19,6 +19,7 @@
 #include "voxlist/bus/health.h"
 #include "voxlist/bus/maps/map_convert.h"
 #include "voxlist/geometry/angle.h"
+#include "voxlist/system/memory.h"
 
 namespace voxlist::services {
 namespace {
@@ -134,6 +135,9 @@ void LocaliserService::take_map(const map_update_t& message) {
     const bus::AppliedChange applied = bus::apply(change, map_);
     if (!applied.replaced) localiser_.map_changed(applied.changed);
     follow_move(change);
+    if (change.packed.empty()) continue;
+    change.packed.clear();
+    give_memory_back();
   }
   follow_mapper();
 }

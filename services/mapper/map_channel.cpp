@@ -8,6 +8,7 @@
 #include "voxlist/bus/bus.h"
 #include "voxlist/bus/health.h"
 #include "voxlist/bus/multicast/paced_sender.h"
+#include "voxlist/system/memory.h"
 
 namespace voxlist::services {
 
@@ -15,26 +16,37 @@ void MapChannel::send_word(bus::MapChange nothing_new, std::int64_t answers) {
   if (nothing_new.version == 0) nothing_new.base_version = bus::kWholeMap;
   map_update_t message = std::move(bus::split_map(std::move(nothing_new)).front());
   message.answers = answers;
-  push(std::move(message), true, false);
+  push_first(std::move(message));
 }
 
 void MapChannel::send(bus::MapChange change) {
-  const bool whole = change.is_whole();
-  auto messages = bus::split_map(std::move(change));
-  for (std::size_t i = 0; i < messages.size(); ++i)
-    if (!push(std::move(messages[i]), !whole, whole && i + 1 == messages.size())) return;
+  for (map_update_t& message : bus::split_map(std::move(change))) push_first(std::move(message));
 }
 
-bool MapChannel::push(map_update_t message, bool is_first, bool ends_whole) {
+void MapChannel::send_whole(bus::MapChange word, const OccupancyMap& map) {
+  const auto whole = std::make_shared<bus::WholeMap>(std::move(word), map);
+  for (std::size_t i = 0; i < whole->size(); ++i)
+    if (!push_chunk(whole, i)) return;
+  ++wholes_queued_;
+}
+
+bool MapChannel::push_chunk(const std::shared_ptr<bus::WholeMap>& whole, std::size_t chunk) {
+  return note_queued(sender_.push(whole->bytes(chunk), [this, whole, chunk] {
+    bus_.publish(channel_, whole->take(chunk));
+    if (chunk + 1 < whole->size()) return;
+    --wholes_queued_;
+    give_memory_back();
+  }));
+}
+
+void MapChannel::push_first(map_update_t message) {
   const auto kept = std::make_shared<map_update_t>(std::move(message));
-  const auto bytes = static_cast<std::size_t>(kept->getEncodedSize());
-  const auto send = [this, kept, ends_whole] {
-    bus_.publish(channel_, *kept);
-    if (ends_whole) --wholes_queued_;
-  };
-  const bool queued = is_first ? sender_.push_first(bytes, send) : sender_.push(bytes, send);
+  note_queued(sender_.push_first(static_cast<std::size_t>(kept->getEncodedSize()),
+                                 [this, kept] { bus_.publish(channel_, *kept); }));
+}
+
+bool MapChannel::note_queued(bool queued) {
   if (!queued) health_.count(std::string(channel_.name) + "/queue_full");
-  if (queued && ends_whole) ++wholes_queued_;
   return queued;
 }
 

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 
 #include "voxlist/bus/channels.h"
 #include "voxlist/bus/maps/map_chunks.h"
+#include "voxlist/bus/maps/whole_map.h"
 
 namespace voxlist::bus {
 class Bus;
@@ -25,9 +28,12 @@ class MapChannel {
   /// `answers`: utime of the request that it answers, or 0. An empty map is told whole.
   void send_word(bus::MapChange nothing_new, std::int64_t answers);
 
-  /// Sends a change: before what waits, for listeners wait for what is new; a whole map behind it,
-  /// for that takes a while.
+  /// Sends a change before what waits, for listeners wait for what is new.
   void send(bus::MapChange change);
+
+  /// Sends the whole map, as it is now, behind what waits, for that takes a while. `word`: which
+  /// map it is.
+  void send_whole(bus::MapChange word, const OccupancyMap& map);
 
   /// Whether a whole map waits: it answers whoever asks meanwhile.
   bool is_sending_whole() const { return wholes_queued_ > 0; }
@@ -36,7 +42,9 @@ class MapChannel {
   void clear() { wholes_queued_ = 0; }
 
  private:
-  bool push(map_update_t message, bool is_first, bool ends_whole);
+  void push_first(map_update_t message);
+  bool push_chunk(const std::shared_ptr<bus::WholeMap>& whole, std::size_t chunk);
+  bool note_queued(bool queued);
 
   bus::Bus& bus_;
   bus::Health& health_;

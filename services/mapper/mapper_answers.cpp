@@ -21,7 +21,7 @@ void MapperService::take_request(const map_request_t& message) {
   switch (message.want) {
     case map_request_t::WANT_MAP:
       if (has_use_for_map(message) && !map_channel_.is_sending_whole())
-        send_map_change(bus::kWholeMap);
+        map_channel_.send_whole(nothing_new(builder_.map()), builder_.map());
       return;
     case map_request_t::WANT_KEYFRAMES:
       return resend_keyframes(static_cast<std::size_t>(std::max(0, message.first)));
@@ -81,7 +81,7 @@ void MapperService::answer_for_free_space(const map_request_t& message) {
   is_free_space_wanted_ = true;
   free_channel_.send_word(nothing_new(builder_.free_space()), message.utime);
   if (has_use_for_map(message) && !free_channel_.is_sending_whole())
-    send_free_space_change(bus::kWholeMap);
+    free_channel_.send_whole(nothing_new(builder_.free_space()), builder_.free_space());
 }
 
 bus::MapChange MapperService::nothing_new(const OccupancyMap& map) const {
@@ -117,10 +117,7 @@ bus::MapChange MapperService::change_of(std::int64_t base_version, const Occupan
                                         const ChangedBlocks& changed) const {
   bus::MapChange change = nothing_new(map);
   change.base_version = base_version;
-  if (base_version == bus::kWholeMap)
-    change.blocks = bus::to_messages(map);
-  else if (base_version != version())
-    change.blocks = bus::to_messages(map, changed);
+  if (base_version != version()) change.blocks = bus::to_messages(map, changed);
   return change;
 }
 

@@ -143,7 +143,8 @@ class MapperService {
   bool is_confirmed_ = false;  // a cloud was placed by what the map's first one saw
   service::CloudInput cloud_input_;
   std::deque<Cloud> recent_clouds_;
-  bus::PacedSender sender_;
+  // Bytes on the bus: what waits of a whole map takes half of them, of keyframes none.
+  bus::PacedSender sender_{bus::PacedSender::Options{.max_queued_bytes = 1'200'000'000}};
   MapChannel map_channel_, free_channel_;
   EditChannel edit_channel_;
   bool is_free_space_wanted_ = false;

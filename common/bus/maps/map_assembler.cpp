@@ -13,6 +13,9 @@ constexpr std::size_t kMaxAssemblies = 64;
 // Blocks that all of them may hold together: as many as one whole map.
 constexpr std::size_t kMaxPendingBlocks = std::size_t{kMaxChunks} * kBlocksPerChunk;
 
+// A change of more chunks than this, 5 MB, stays packed until it is applied.
+constexpr std::size_t kUnpackedChunks = 64;
+
 // Farthest (m) that an increment lies from the map that it adds to: a cloud reaches 1 km, and
 // begins in the map.
 constexpr double kMaxGap_m = 2'000.0;
@@ -39,8 +42,9 @@ bool leads_to_the_same(const MapChange& a, const MapChange& b) {
          a.moves == b.moves && a.edits == b.edits;
 }
 
-void append(const std::vector<voxel_block_t>& more, std::vector<voxel_block_t>& blocks) {
-  blocks.insert(blocks.end(), more.begin(), more.end());
+void append(const MapBlocks& more, MapBlocks& blocks) {
+  blocks.occupied.insert(blocks.occupied.end(), more.occupied.begin(), more.occupied.end());
+  blocks.passed.insert(blocks.passed.end(), more.passed.begin(), more.passed.end());
 }
 
 }  // namespace
@@ -119,7 +123,7 @@ void MapAssembler::put(const map_update_t& message, Assembly& assembly) {
     ++counters_["duplicate"];
     return;
   }
-  chunk = MapBlocks{message.blocks, message.passed_blocks};
+  chunk.emplace(MapBlocks{message.blocks, message.passed_blocks});
   --assembly.missing;
   pending_blocks_ += chunk->size();
 }
@@ -139,11 +143,12 @@ std::vector<MapChange> MapAssembler::take_ready() {
 
 MapChange MapAssembler::take(std::list<Assembly>::iterator ready) {
   MapChange change = std::move(ready->change);
-  for (const auto& chunk : ready->chunks) {
-    append(chunk->occupied, change.blocks.occupied);
-    append(chunk->passed, change.blocks.passed);
+  const bool is_large = ready->chunks.size() > kUnpackedChunks;
+  for (auto& chunk : ready->chunks) {
+    pending_blocks_ -= chunk->size();
+    is_large ? change.packed.push_back(std::move(*chunk))
+             : append(chunk->unpacked(), change.blocks);
   }
-  pending_blocks_ -= change.blocks.size();
   assemblies_.erase(ready);
   hold(change);
   return change;
@@ -153,8 +158,10 @@ void MapAssembler::hold(const MapChange& change) {
   held_ = Held{change.utime_us, change.map_id, change.version, change.resolution};
   if (change.is_whole()) box_ = Eigen::AlignedBox3d(Eigen::Vector3d::Zero().eval());
   const auto extend = [this](const Eigen::Vector3d& corner) { box_.extend(corner); };
-  for_each_corner(change.blocks.occupied, change.resolution.occupied_m, extend);
-  for_each_corner(change.blocks.passed, change.resolution.passed_m, extend);
+  change.for_each_part([&](const MapBlocks& blocks) {
+    for_each_corner(blocks.occupied, change.resolution.occupied_m, extend);
+    for_each_corner(blocks.passed, change.resolution.passed_m, extend);
+  });
 }
 
 void MapAssembler::abandon(std::list<Assembly>::iterator assembly) {

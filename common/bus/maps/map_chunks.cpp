@@ -24,6 +24,11 @@ std::vector<voxel_block_t> slice(const std::vector<voxel_block_t>& blocks, std::
 
 }  // namespace
 
+void check_chunks(std::size_t chunks) {
+  if (chunks > std::size_t{kMaxChunks})
+    throw std::length_error("map of more than 12 million blocks");
+}
+
 std::vector<map_update_t> split_map(MapChange change) {
   auto& [occupied, passed] = change.blocks;
   put_in_order(occupied);
@@ -32,7 +37,7 @@ std::vector<map_update_t> split_map(MapChange change) {
   const std::ptrdiff_t n_blocks = n_occupied + std::ssize(passed);
   const auto n_chunks =
       std::max<std::ptrdiff_t>(1, (n_blocks + kBlocksPerChunk - 1) / kBlocksPerChunk);
-  if (n_chunks > kMaxChunks) throw std::length_error("map of more than 3.9 million blocks");
+  check_chunks(static_cast<std::size_t>(n_chunks));
 
   std::vector<map_update_t> messages;
   for (std::ptrdiff_t chunk = 0; chunk < n_chunks; ++chunk) {

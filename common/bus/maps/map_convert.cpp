@@ -26,6 +26,17 @@ VoxelBlock bits_of(const voxel_block_t& message) {
   return block;
 }
 
+// Room for a whole map: one that grows by doubling holds twice as much meanwhile.
+void make_room(const MapChange& change, OccupancyMap& map) {
+  std::size_t occupied = 0, passed = 0;
+  change.for_each_part([&](const MapBlocks& blocks) {
+    occupied += blocks.occupied.size();
+    passed += blocks.passed.size();
+  });
+  map.occupied.reserve(occupied);
+  map.passed.reserve(passed);
+}
+
 std::vector<voxel_block_t> to_messages(const VoxelMap& map) {
   std::vector<voxel_block_t> messages;
   messages.reserve(map.block_count());
@@ -71,11 +82,16 @@ MapBlocks to_messages(const OccupancyMap& map, const ChangedBlocks& positions) {
 AppliedChange apply(const MapChange& change, OccupancyMap& map) {
   AppliedChange applied{.replaced = change.is_whole(), .changed = {}};
   applied.changed.from = map.revision();
-  if (applied.replaced)
+  if (applied.replaced) {
     map = {VoxelMap(change.resolution.occupied_m), VoxelMap(change.resolution.passed_m)};
+    make_room(change, map);
+  }
   VOXLIST_CHECK(resolution_of(map) == change.resolution, "the change is of another map");
-  set_blocks(change.blocks.occupied, map.occupied, applied.changed.occupied);
-  set_blocks(change.blocks.passed, map.passed, applied.changed.passed);
+  change.for_each_part([&](const MapBlocks& blocks) {
+    set_blocks(blocks.occupied, map.occupied, applied.changed.occupied);
+    set_blocks(blocks.passed, map.passed, applied.changed.passed);
+    if (applied.replaced) applied.changed = {{}, {}, applied.changed.from, {}};
+  });
   applied.changed.to = map.revision();
   return applied;
 }
