@@ -11,39 +11,24 @@
 #include <string>
 #include <vector>
 
-#include "tests/bench/test_floor.h"
+#include "tests/bench/large/large_floor.h"
 #include "voxlist/mapping/keyframe_writer.h"
 #include "voxlist/mapping/map_store.h"
 
 namespace voxlist::bench {
 namespace {
 
-constexpr double kWing_m = 13.5, kRoom_m = 6.0, kRobotRadius_m = 0.35, kRobotHeight_m = 1.0;
+constexpr double kRobotRadius_m = 0.35, kRobotHeight_m = 1.0;
 constexpr std::size_t kScansUnderWay = 16;  // bounds memory
 
-struct Floor {
-  simulation::Building building;
-  double length_m = 0.0, depth_m = 0.0;
-};
-
-Floor floor_of(double length_m, double depth_m, int seed) {
-  simulation::BuildingConfig wing;
-  wing.length_m = length_m;
-  wing.depth_m = kWing_m;
-  wing.rooms = 2 * static_cast<int>(std::lround(length_m / kRoom_m));
-  wing.seed = 1000 * seed;
-  const int wings = static_cast<int>(std::lround(depth_m / kWing_m));
-  return {make_floor(wing, wings), length_m, wings * kWing_m};
-}
-
 // Row by row, to and fro, so that each is near to the one before.
-std::vector<Pose2> drive_over(const Floor& floor, double step_m, std::uint64_t seed) {
+std::vector<Pose2> drive_over(const TestFloor& floor, double step_m, std::uint64_t seed) {
   simulation::Random random(seed, 77);
   std::vector<Pose2> poses;
   int row = 0;
-  for (double y = -kWing_m / 2.0; y < floor.depth_m - kWing_m / 2.0; y += step_m, ++row) {
-    for (double along = 0.0; along < floor.length_m; along += step_m) {
-      const double x = row % 2 == 0 ? along : floor.length_m - along;
+  for (double y = floor.low.y(); y < floor.high.y(); y += step_m, ++row) {
+    for (double along = floor.low.x(); along < floor.high.x(); along += step_m) {
+      const double x = row % 2 == 0 ? along : floor.low.x() + floor.high.x() - along;
       const Pose2 pose{x, y, random.uniform(-std::numbers::pi, std::numbers::pi)};
       if (floor.building.clearance_m({x, y}, 0.05, kRobotHeight_m) > kRobotRadius_m)
         poses.push_back(pose);
@@ -53,14 +38,14 @@ std::vector<Pose2> drive_over(const Floor& floor, double step_m, std::uint64_t s
 }
 
 // So that about so many places have room: furniture and walls take some of the squares.
-std::vector<Pose2> drive_of(const Floor& floor, double keyframes, std::uint64_t seed) {
-  const double step_m = std::sqrt(floor.length_m * floor.depth_m / keyframes);
+std::vector<Pose2> drive_of(const TestFloor& floor, double keyframes, std::uint64_t seed) {
+  const double step_m = std::sqrt((floor.high - floor.low).prod() / keyframes);
   const double share = static_cast<double>(drive_over(floor, step_m, seed).size()) / keyframes;
   return drive_over(floor, step_m * std::sqrt(share), seed);
 }
 
 // All threads scan; one writes, in the order of the poses.
-void write_map(const Floor& floor, const std::vector<Pose2>& poses,
+void write_map(const TestFloor& floor, const std::vector<Pose2>& poses,
                mapping::NewKeyframeFile& file) {
   std::size_t asked = 0, written = 0;
   tbb::parallel_pipeline(
@@ -90,7 +75,7 @@ int main(int argc, char** argv) {
   if (argc < 2)
     return std::fprintf(stderr, "usage: large_map FOLDER [KEYFRAMES] [LENGTH DEPTH] [SEED]\n"), 1;
   const int seed = static_cast<int>(number(5, 301));
-  const Floor floor = floor_of(number(3, 200.0), number(4, 150.0), seed);
+  const TestFloor floor = large_floor(number(3, 200.0), number(4, 150.0), seed);
   const auto poses = drive_of(floor, number(2, 10'000.0), static_cast<std::uint64_t>(seed));
   std::filesystem::create_directories(argv[1]);
   voxlist::mapping::NewKeyframeFile file(
