@@ -37,8 +37,17 @@ bool are_equal(std::string_view a, std::string_view b) {
   return difference == 0;
 }
 
-Ruling rule_upgrade(const Asked& asked) {
+// Whoever only looks on may come from any path, and from pages that are allowed to.
+Ruling rule_foreign_upgrade(const Asked& asked, const Rules& rules) {
+  const bool is_allowed =
+      !asked.origin || is_own_origin(asked) ||
+      std::ranges::find(rules.foreign_origins, *asked.origin) != rules.foreign_origins.end();
+  return is_allowed ? Ruling{Deed::kForeignUpgrade} : refuse(403, "another origin");
+}
+
+Ruling rule_upgrade(const Asked& asked, const Rules& rules) {
   if (asked.method != "GET") return refuse(405, "a WebSocket begins with GET");
+  if (foreign_protocol(asked, rules)) return rule_foreign_upgrade(asked, rules);
   if (asked.target != kLivePath) return refuse(404, "no WebSocket is here");
   if (asked.origin && !is_own_origin(asked)) return refuse(403, "another origin");
   if (!asked.subprotocols || !lists(*asked.subprotocols, kLiveProtocol))
@@ -68,10 +77,17 @@ bool lists(std::string_view list, std::string_view word) {
   return false;
 }
 
+const std::string* foreign_protocol(const Asked& asked, const Rules& rules) {
+  if (!asked.subprotocols || lists(*asked.subprotocols, kLiveProtocol)) return nullptr;
+  for (const std::string& name : rules.foreign_protocols)
+    if (lists(*asked.subprotocols, name)) return &name;
+  return nullptr;
+}
+
 Ruling rule(const Asked& asked, const Rules& rules) {
   if (asked.repeats_a_header) return refuse(400, "a header is there twice");
   if (!asked.host || !is_own_host(*asked.host, rules)) return refuse(421, "another host");
-  if (asked.wants_upgrade) return rule_upgrade(asked);
+  if (asked.wants_upgrade) return rule_upgrade(asked, rules);
   if (asked.target.starts_with(kCommandPath)) return rule_command(asked, rules);
   if (asked.method != "GET" && asked.method != "HEAD") return refuse(405, "files are only read");
   return {Deed::kFile};

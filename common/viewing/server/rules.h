@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace voxlist::viewing {
 
@@ -23,6 +24,9 @@ struct Rules {
   std::string token;
   /// The address is not loopback, so Host may be any address that is written in numbers.
   bool is_open = false;
+  /// WebSocket protocols of others' viewers, which only look on, and the pages elsewhere that may
+  /// speak them, such as https://app.foxglove.dev.
+  std::vector<std::string> foreign_protocols{}, foreign_origins{};
 };
 
 /// The page's own WebSocket protocol. Others may stand beside it on the same port.
@@ -36,7 +40,7 @@ inline constexpr std::string_view kLivePath = "/live";
 inline constexpr std::size_t kMostBytes = 65'536;
 
 /// What is done with a request.
-enum class Deed { kFile, kUpgrade, kCommand, kRefuse };
+enum class Deed { kFile, kUpgrade, kForeignUpgrade, kCommand, kRefuse };
 
 struct Ruling {
   Deed deed;
@@ -53,5 +57,9 @@ Ruling rule(const Asked& asked, const Rules& rules);
 
 /// Whether a list such as "a, b" has the word.
 bool lists(std::string_view list, std::string_view word);
+
+/// The first of the foreign protocols that a client asks for; null where it asks for none, or for
+/// the page's own.
+const std::string* foreign_protocol(const Asked& asked, const Rules& rules);
 
 }  // namespace voxlist::viewing

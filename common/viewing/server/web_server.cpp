@@ -123,14 +123,19 @@ int inherited_socket() {
 struct WebServer::Impl : std::enable_shared_from_this<WebServer::Impl> {
   class Connection;
   class Stream;
+  class LiveStream;
+  class ForeignStream;
 
   explicit Impl(ServerOwner its_owner) : owner(std::move(its_owner)) {
     rules.token = random_token();
+    rules.foreign_protocols = owner.foreign.names;
+    rules.foreign_origins = owner.foreign.origins;
   }
 
   void listen(const ServerOptions& options);
   void accept();
-  void open_stream(beast::tcp_stream stream, Request request);
+  template <class S>
+  void open_stream(beast::tcp_stream stream, const Request& request, const std::string& protocol);
 
   ServerOwner owner;
   Rules rules;
@@ -144,27 +149,22 @@ struct WebServer::Impl : std::enable_shared_from_this<WebServer::Impl> {
   tcp::acceptor acceptor{io};
 };
 
-// One client that the stream goes to. Its number is the owner's.
+// One client of a WebSocket, whatever is spoken.
 class WebServer::Impl::Stream : public std::enable_shared_from_this<Stream> {
  public:
-  Stream(beast::tcp_stream stream, Impl& server)
-      : socket_(std::move(stream)), server_(server), number_(server.owner.open()) {
+  Stream(beast::tcp_stream stream, Impl& server) : server_(server), socket_(std::move(stream)) {
     ++server_.clients;
   }
-  ~Stream() {
-    --server_.clients;
-    if (!server_.is_closing) server_.owner.close(number_);
-  }
+  virtual ~Stream() { --server_.clients; }
 
-  void accept(const Request& request) {
+  void accept(const Request& request, const std::string& protocol) {
     beast::get_lowest_layer(socket_).expires_never();
     socket_.set_option(websocket::stream_base::timeout{kRequestTime, kIdleTime, true});
-    socket_.set_option(websocket::stream_base::decorator([](websocket::response_type& response) {
-      response.set(http::field::sec_websocket_protocol,
-                   beast::string_view(kLiveProtocol.data(), kLiveProtocol.size()));
-    }));
+    socket_.set_option(
+        websocket::stream_base::decorator([protocol](websocket::response_type& response) {
+          response.set(http::field::sec_websocket_protocol, protocol);
+        }));
     socket_.read_message_max(kMostBytes);
-    socket_.binary(true);
     socket_.auto_fragment(false);
     socket_.async_accept(request, [self = shared_from_this()](error_code error) {
       if (error) return;
@@ -177,11 +177,11 @@ class WebServer::Impl::Stream : public std::enable_shared_from_this<Stream> {
   // Sends what is next, if nothing is on its way.
   void write() {
     if (!is_open_ || is_writing_) return;
-    auto frame = server_.owner.next(number_);
-    if (!frame) return;
-    frame_ = std::move(*frame);
+    const auto message = next();
+    if (!message) return;
+    socket_.text(message->is_text);
     is_writing_ = true;
-    socket_.async_write(asio::buffer(frame_),
+    socket_.async_write(message->buffer,
                         [self = shared_from_this()](error_code error, std::size_t) {
                           self->is_writing_ = false;
                           if (error) return self->end();
@@ -189,12 +189,25 @@ class WebServer::Impl::Stream : public std::enable_shared_from_this<Stream> {
                         });
   }
 
+ protected:
+  // What lies in a stream until it has been sent.
+  struct Outgoing {
+    asio::const_buffer buffer;
+    bool is_text;
+  };
+
+  virtual std::optional<Outgoing> next() = 0;
+  virtual void hear(std::string_view bytes, bool is_text) = 0;
+
+  Impl& server_;
+
  private:
-  // What a client says is read, for pings and its end, and means nothing.
   void read() {
     socket_.async_read(buffer_, [self = shared_from_this()](error_code error, std::size_t) {
-      self->buffer_.clear();
       if (error) return self->end();
+      const auto bytes = self->buffer_.data();
+      self->hear({static_cast<const char*>(bytes.data()), bytes.size()}, self->socket_.got_text());
+      self->buffer_.clear();
       self->read();
     });
   }
@@ -205,11 +218,58 @@ class WebServer::Impl::Stream : public std::enable_shared_from_this<Stream> {
   }
 
   websocket::stream<beast::tcp_stream> socket_;
-  Impl& server_;
-  const int number_;
   beast::flat_buffer buffer_;
-  Frame frame_;
   bool is_open_ = false, is_writing_ = false;
+};
+
+// The page. Its number is the owner's.
+class WebServer::Impl::LiveStream : public Stream {
+ public:
+  LiveStream(beast::tcp_stream stream, Impl& server)
+      : Stream(std::move(stream), server), number_(server.owner.open()) {}
+  ~LiveStream() override {
+    if (!server_.is_closing) server_.owner.close(number_);
+  }
+
+ private:
+  std::optional<Outgoing> next() override {
+    auto frame = server_.owner.next(number_);
+    if (!frame) return std::nullopt;
+    frame_ = std::move(*frame);
+    return Outgoing{asio::buffer(frame_), false};
+  }
+
+  // What a page says is read for pings and its end, and means nothing.
+  void hear(std::string_view, bool) override {}
+
+  const int number_;
+  Frame frame_;
+};
+
+// Somebody else's viewer.
+class WebServer::Impl::ForeignStream : public Stream {
+ public:
+  ForeignStream(beast::tcp_stream stream, Impl& server)
+      : Stream(std::move(stream), server), number_(server.owner.foreign.open()) {}
+  ~ForeignStream() override {
+    if (!server_.is_closing) server_.owner.foreign.close(number_);
+  }
+
+ private:
+  std::optional<Outgoing> next() override {
+    auto message = server_.owner.foreign.next(number_);
+    if (!message) return std::nullopt;
+    message_ = std::move(*message);
+    return Outgoing{asio::buffer(message_.bytes), message_.is_text};
+  }
+
+  void hear(std::string_view bytes, bool is_text) override {
+    server_.owner.foreign.hear(number_, bytes, is_text);
+    write();
+  }
+
+  const int number_;
+  SocketMessage message_;
 };
 
 // One connection that asks for files, posts commands, or becomes a Stream.
@@ -249,18 +309,21 @@ class WebServer::Impl::Connection : public std::enable_shared_from_this<Connecti
       case Deed::kCommand:
         return write_command(request);
       case Deed::kUpgrade:
-        return upgrade(std::move(request));
+        return upgrade<LiveStream>(request, std::string(kLiveProtocol));
+      case Deed::kForeignUpgrade:
+        return upgrade<ForeignStream>(request, *foreign_protocol(asked_by(request), server_.rules));
       case Deed::kRefuse:
         return write_refusal(request, ruling);
     }
   }
 
-  void upgrade(Request request) {
+  template <class S>
+  void upgrade(const Request& request, const std::string& protocol) {
     if (!websocket::is_upgrade(request))
       return write_refusal(request, {Deed::kRefuse, 400, "no WebSocket handshake"});
     if (server_.clients >= kMostClients)
       return write_refusal(request, {Deed::kRefuse, 503, "too many clients"});
-    server_.open_stream(std::move(stream_), std::move(request));
+    server_.open_stream<S>(std::move(stream_), request, protocol);
   }
 
   void write_file(const Request& request) {
@@ -331,11 +394,13 @@ void WebServer::Impl::accept() {
   });
 }
 
-void WebServer::Impl::open_stream(beast::tcp_stream stream, Request request) {
-  const auto fresh = std::make_shared<Stream>(std::move(stream), *this);
+template <class S>
+void WebServer::Impl::open_stream(beast::tcp_stream stream, const Request& request,
+                                  const std::string& protocol) {
+  const std::shared_ptr<Stream> fresh = std::make_shared<S>(std::move(stream), *this);
   std::erase_if(streams, [](const auto& gone) { return gone.expired(); });
   streams.push_back(fresh);
-  fresh->accept(request);
+  fresh->accept(request, protocol);
 }
 
 WebServer::WebServer(const ServerOptions& options, ServerOwner owner)

@@ -5,6 +5,8 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "voxlist/viewing/scene/frame.h"
 
@@ -27,6 +29,26 @@ struct CommandAnswer {
   std::string sentence;
 };
 
+/// One WebSocket message.
+struct SocketMessage {
+  std::string bytes;
+  bool is_text = false;
+};
+
+/// Another WebSocket protocol on the same port, for other people's viewers: they look on.
+struct ForeignProtocol {
+  /// As clients ask for it.
+  std::vector<std::string> names{};
+  /// Pages elsewhere that may speak it.
+  std::vector<std::string> origins{};
+  /// As the owner's.
+  std::function<int()> open{};
+  std::function<void(int)> close{};
+  std::function<std::optional<SocketMessage>(int)> next{};
+  /// What a client says.
+  std::function<void(int, std::string_view bytes, bool is_text)> hear{};
+};
+
 /// What the server asks its owner. All calls come from within poll().
 struct ServerOwner {
   /// A client comes, and gets a number.
@@ -35,6 +57,7 @@ struct ServerOwner {
   /// What a client is to be sent next; nothing: it has all.
   std::function<std::optional<Frame>(int)> next;
   std::function<CommandAnswer(const std::string& name, const std::string& json)> command;
+  ForeignProtocol foreign{};
 };
 
 /// HTTP and WebSocket on one port: the page's files, the stream, the commands. What it refuses is

@@ -54,6 +54,40 @@ TEST(Rules, KnowTheirProtocolAmongOthers) {
   EXPECT_EQ(rule(asked, kRules).deed, Deed::kUpgrade);
 }
 
+// A program, or Foxglove's page, that asks for Foxglove's protocol.
+Asked foreign_upgrade() {
+  Asked asked = file();
+  asked.subprotocols = "foxglove.websocket.v1";
+  asked.wants_upgrade = true;
+  return asked;
+}
+
+const Rules kForeignRules{.port = 7668,
+                          .token = "secret",
+                          .foreign_protocols = {"foxglove.sdk.v1", "foxglove.websocket.v1"},
+                          .foreign_origins = {"https://viewer.example"}};
+
+TEST(Rules, LetOthersViewersLookOnByTheirProtocol) {
+  EXPECT_EQ(rule(foreign_upgrade(), kForeignRules).deed, Deed::kForeignUpgrade);
+  EXPECT_EQ(*foreign_protocol(foreign_upgrade(), kForeignRules), "foxglove.websocket.v1");
+  EXPECT_EQ(rule(foreign_upgrade(), kRules).deed, Deed::kRefuse);
+  Asked asked = foreign_upgrade();
+  asked.origin = "https://viewer.example";
+  EXPECT_EQ(rule(asked, kForeignRules).deed, Deed::kForeignUpgrade);
+  asked.origin = "https://evil.example";
+  EXPECT_EQ(rule(asked, kForeignRules).status, 403U);
+  asked.origin.reset();
+  asked.host = "evil.example:7668";
+  EXPECT_EQ(rule(asked, kForeignRules).status, 421U);
+}
+
+TEST(Rules, LetAllowedPagesElsewhereDoNothingElse) {
+  Asked live = upgrade(), save = command();
+  live.origin = save.origin = "https://viewer.example";
+  EXPECT_EQ(rule(live, kForeignRules).status, 403U);
+  EXPECT_EQ(rule(save, kForeignRules).status, 403U);
+}
+
 struct Wrong {
   const char* what;
   Asked (*good)();

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "voxlist/system/file_descriptor.h"
@@ -37,7 +38,21 @@ struct Served {
                     [this](const std::string& name, const std::string& json) {
                       commands.push_back(name + json);
                       return CommandAnswer{};
-                    }}) {}
+                    },
+                    foreign()}) {}
+
+  // Says "hello" once, and keeps what it hears.
+  ForeignProtocol foreign() {
+    ForeignProtocol protocol;
+    protocol.names = {"foreign.v2", "foreign.v1"};
+    protocol.open = [this] { return ++foreign_opened; };
+    protocol.close = [this](int) { ++foreign_closed; };
+    protocol.next = [this](int) { return std::exchange(hello, std::nullopt); };
+    protocol.hear = [this](int, std::string_view bytes, bool is_text) {
+      foreign_heard.push_back(std::string(is_text ? "text " : "bytes ").append(bytes));
+    };
+    return protocol;
+  }
 
   std::optional<Frame> take_frame() {
     if (frames == 0) return std::nullopt;
@@ -68,11 +83,13 @@ struct Served {
     return talk(fd, text);
   }
 
-  std::string upgrade() const {
-    return "GET /live HTTP/1.1\r\nHost: " + own() + "\r\nOrigin: http://" + own() +
+  std::string upgrade(const std::string& path = "/live",
+                      const std::string& protocols = "voxlist.live.v1") const {
+    return "GET " + path + " HTTP/1.1\r\nHost: " + own() + "\r\nOrigin: http://" + own() +
            "\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
            "Sec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r\n"
-           "Sec-WebSocket-Protocol: voxlist.live.v1\r\n\r\n";
+           "Sec-WebSocket-Protocol: " +
+           protocols + "\r\n\r\n";
   }
 
   std::string post(const std::string& extra, const std::string& body = "{}") const {
@@ -83,7 +100,9 @@ struct Served {
 
   int opened = 0, closed = 0, frames = 0;
   std::size_t frame_bytes = 10;
-  std::vector<std::string> commands;
+  std::vector<std::string> commands, foreign_heard;
+  std::optional<SocketMessage> hello = SocketMessage{"hello", true};
+  int foreign_opened = 0, foreign_closed = 0;
   WebServer server;
 };
 
@@ -155,6 +174,24 @@ TEST(WebServer, StreamsFramesToAClient) {
   EXPECT_THAT(heard, HasSubstr("Sec-WebSocket-Protocol: voxlist.live.v1"));
   EXPECT_THAT(heard, HasSubstr("\x82\x0a" + std::string(10, 7)));
   EXPECT_EQ(served.server.clients(), 1);
+}
+
+TEST(WebServer, SpeaksAForeignProtocolBesideItsOwn) {
+  Served served;
+  {
+    const FileDescriptor fd = connect_to(served.server.port());
+    const std::string answer = served.talk(fd, served.upgrade("/", "other, foreign.v1"), "hello");
+    EXPECT_THAT(answer, HasSubstr("Sec-WebSocket-Protocol: foreign.v1\r\n"));
+    EXPECT_THAT(answer, HasSubstr("\x81\x05hello"));
+    // Masked by 0: "hi" as text, then as bytes.
+    const std::string said("\x81\x82\0\0\0\0hi\x82\x82\0\0\0\0hi", 16);
+    send(fd.get(), said.data(), said.size(), MSG_NOSIGNAL);
+    for (int i = 0; i < 1000 && served.foreign_heard.size() < 2; ++i) served.server.poll();
+    EXPECT_THAT(served.foreign_heard, testing::ElementsAre("text hi", "bytes hi"));
+    EXPECT_EQ(served.opened, 0);
+  }
+  for (int i = 0; i < 1000 && served.foreign_closed == 0; ++i) served.server.poll();
+  EXPECT_EQ(served.foreign_closed, 1);
 }
 
 TEST(WebServer, LetsAClientGo) {
