@@ -45,6 +45,12 @@ viewing::ServerOptions listening(const ViewerServiceConfig& config) {
   return {config.address, static_cast<std::uint16_t>(config.port), viewing::inherited_socket()};
 }
 
+std::vector<std::string> names_of(const planning::RobotProfiles& robots) {
+  std::vector<std::string> names;
+  for (const planning::RobotProfile& robot : robots.in_use()) names.push_back(robot.name);
+  return names;
+}
+
 }  // namespace
 
 void ViewerService::check(const ViewerServiceConfig& config) {
@@ -59,7 +65,8 @@ ViewerService::ViewerService(bus::Bus& bus, bus::Health& health, const ViewerSer
       health_(health),
       viewer_(config.viewer),
       follower_(health),
-      server_(listening(config), owner()) {
+      foxglove_(bus, names_of(config.robots)),
+      server_(listening(config), owner(config.foxglove_origins)) {
   check(config);
   subscribe(config.robots);
   spdlog::info("the page is at http://{}:{}/", config.address, server_.port());
@@ -71,7 +78,10 @@ ViewerService::ViewerService(bus::Bus& bus, bus::Health& health, const ViewerSer
 
 template <class M>
 void ViewerService::show(bus::Channel<M> channel) {
-  bus_.subscribe(channel, [this](const M& message) { viewer_.scene().take(message, now_us_); });
+  bus_.subscribe(channel, [this, name = std::string(channel.name)](const M& message) {
+    viewer_.scene().take(message, now_us_);
+    foxglove_.take(bus::Channel<M>{name.c_str()}, message);
+  });
 }
 
 void ViewerService::subscribe(const planning::RobotProfiles& robots) {
@@ -86,23 +96,31 @@ void ViewerService::subscribe(const planning::RobotProfiles& robots) {
     show(bus::Channel<traversability_t>{channel.c_str()});
   }
   bus_.subscribe(bus::kMapUpdate, [this](const map_update_t& m) { take(m); });
-  bus_.subscribe(bus::kCloud,
-                 [this](const pointcloud_t& m) { viewer_.scene().take_cloud(m, now_us_); });
-  bus_.subscribe(bus::kCloudSlice,
-                 [this](const pointcloud_t& m) { viewer_.scene().take_slice(m, now_us_); });
+  bus_.subscribe(bus::kCloud, [this](const pointcloud_t& m) {
+    viewer_.scene().take_cloud(m, now_us_);
+    foxglove_.take(bus::kCloud, m);
+  });
+  bus_.subscribe(bus::kCloudSlice, [this](const pointcloud_t& m) {
+    viewer_.scene().take_slice(m, now_us_);
+    foxglove_.take(bus::kCloudSlice, m);
+  });
   bus_.subscribe(bus::kMapEdits, [this](const map_edits_t& m) {
     if (const auto edits = bus::from_message(m)) viewer_.scene().take(*edits, now_us_);
   });
 }
 
 void ViewerService::take(const map_update_t& message) {
-  for (const bus::MapChange& change : follower_.take(message)) viewer_.take(change, now_us_);
+  for (const bus::MapChange& change : follower_.take(message)) {
+    viewer_.take(change, now_us_);
+    foxglove_.take(change);
+  }
 }
 
 void ViewerService::tick(std::int64_t now_us) {
   now_us_ = now_us;
   follow_map();
   viewer_.tick();
+  foxglove_.tick(now_us);
   if (!told_us_ || now_us - *told_us_ >= kTimePeriod_us) tell_time();
   server_.poll();
   report();
@@ -119,6 +137,7 @@ void ViewerService::follow_map() {
 
 void ViewerService::tell_time() {
   told_us_ = now_us_;
+  foxglove_.tell_time(now_us_);
   viewer_.scene().board().put(
       "time",
       fmt::format("{{\"now_us\":{},\"clients\":{},\"recording\":\"{}\"}}", now_us_,
@@ -131,10 +150,11 @@ void ViewerService::report() {
   health_.gauge("refused_requests", static_cast<double>(server_.refused()));
 }
 
-viewing::ServerOwner ViewerService::owner() {
+viewing::ServerOwner ViewerService::owner(const std::vector<std::string>& foxglove_origins) {
   return {[this] { return viewer_.open(); }, [this](int client) { viewer_.close(client); },
           [this](int client) { return viewer_.next(client, now_us_); },
-          [this](const std::string& name, const std::string& json) { return obey(name, json); }};
+          [this](const std::string& name, const std::string& json) { return obey(name, json); },
+          foxglove_.protocol(foxglove_origins)};
 }
 
 CommandAnswer ViewerService::obey(const std::string& name, const std::string& json) {

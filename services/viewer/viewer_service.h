@@ -3,7 +3,9 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "services/viewer/foxglove_feed.h"
 #include "services/viewer/recorder.h"
 #include "voxlist/bus/channels.h"
 #include "voxlist/planning/profiles/robot_profile.h"
@@ -23,6 +25,7 @@ namespace voxlist::services {
 struct ViewerServiceConfig {
   std::string address = "127.0.0.1";
   int port = 7668;
+  std::vector<std::string> foxglove_origins;
   viewing::ViewerConfig viewer;
   planning::RobotProfiles robots;
 
@@ -33,6 +36,9 @@ struct ViewerServiceConfig {
       "reaches "
       "the machine see it and give commands; from elsewhere, better: ssh -L 7668:127.0.0.1:7668");
     v("port", port, "of the page; 0: any that is free, told in the log", 0, 65'535);
+    v("foxglove_origins", foxglove_origins,
+      "pages elsewhere that may look on by Foxglove's protocol (never give commands), such as "
+      "https://app.foxglove.dev; programs that are no pages always may");
     viewer.visit(v);
   }
 
@@ -69,7 +75,7 @@ class ViewerService {
   void follow_map();
   void tell_time();
   void report();
-  viewing::ServerOwner owner();
+  viewing::ServerOwner owner(const std::vector<std::string>& foxglove_origins);
 
   viewing::CommandAnswer obey(const viewing::HintCommand& command);
   viewing::CommandAnswer obey(const viewing::SaveCommand& command);
@@ -86,6 +92,7 @@ class ViewerService {
   bus::Health& health_;
   viewing::Viewer viewer_;
   service::MapFollower follower_;
+  FoxgloveFeed foxglove_;
   Recorder recorder_;
   std::int64_t now_us_ = 0;
   std::optional<std::int64_t> told_us_, asked_edits_us_;

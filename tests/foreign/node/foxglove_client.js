@@ -1,0 +1,50 @@
+// Usage: node foxglove_client.js PORT SUBPROTOCOL: Foxglove's own client subscribes to every channel of a viewer and decodes
+// what comes, until each topic of the scene has come.
+import protocol from "@foxglove/ws-protocol";
+import { WebSocket } from "ws";
+import { check, decoder, points_in, topics } from "./decode.js";
+
+const { FoxgloveClient } = protocol;
+const [port, subprotocol] = process.argv.slice(2);
+const wanted = topics.filter((topic) => topic !== "/truth"); // no service says that
+const slower = Number(process.env.SLOWER ?? 1);
+const socket = new WebSocket(`ws://127.0.0.1:${port}`, [subprotocol]);
+const client = new FoxgloveClient({ ws: socket });
+const channels = new Map();
+const last = new Map();
+let info, time;
+
+function fail(why) {
+  console.error(`FAILED: ${why}; ${subprotocol}: missing ${wanted.filter((topic) => !last.has(topic))}`);
+  process.exit(1);
+}
+
+client.on("error", (error) => fail(String(error)));
+client.on("close", () => fail("the connection is closed"));
+client.on("serverInfo", (said) => (info = said));
+client.on("time", (said) => (time = said.timestamp));
+client.on("advertise", (offered) => {
+  for (const channel of offered) {
+    if (channel.encoding !== "protobuf" || channel.schemaEncoding !== "protobuf") fail(`${channel.topic} is no protobuf`);
+    const decode = decoder(channel.schemaName, Buffer.from(channel.schema, "base64"));
+    channels.set(client.subscribe(channel.id), { topic: channel.topic, decode });
+  }
+});
+client.on("message", ({ subscriptionId, data }) => {
+  const channel = channels.get(subscriptionId);
+  last.set(channel.topic, channel.decode(new Uint8Array(data.buffer, data.byteOffset, data.byteLength)));
+  if (time !== undefined && wanted.every((topic) => last.has(topic))) finish();
+});
+setTimeout(() => fail("it took too long"), 60_000 * slower);
+
+function finish() {
+  check("the server speaks the protocol that was asked for", socket.protocol === subprotocol);
+  check("it says who it is", info.name === "voxlist" && info.sessionId.length >= 16 && info.capabilities.includes("time"));
+  check(`every channel came and was decoded as ${subprotocol}`, true);
+  check("the map has the building's voxels", points_in(last.get("/map")) > 1000, points_in(last.get("/map")));
+  check("a cloud has points", points_in(last.get("/cloud")) > 0);
+  check("a grid has its cells", last.get("/grid/low").data.length === 24);
+  check("the time is now", Math.abs(Number(time / 1_000_000n) - Date.now()) < 60_000 * slower);
+  client.off("close");
+  process.exit(0);
+}
