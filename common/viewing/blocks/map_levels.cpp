@@ -16,7 +16,9 @@ void MapLevels::apply(const bus::MapChange& change) {
   const bool is_another = change.map_id != map_id_ || change.resolution != bus::resolution_of(map_);
   if (is_another) return start_over(change);
   if (change.is_whole()) mark_all_stale();
-  for (const Voxel& block : bus::apply(change, map_).changed.occupied) mark_stale(block);
+  const bus::AppliedChange applied = bus::apply(change, map_);
+  if (applied.replaced) mark_all_stale();
+  for (const Voxel& block : applied.changed.occupied) mark_stale(block);
 }
 
 void MapLevels::start_over(const bus::MapChange& change) {
