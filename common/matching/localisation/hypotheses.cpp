@@ -57,7 +57,11 @@ double rival_support(const PoseMode& candidate, const std::vector<PoseMode>& all
   return best;
 }
 
-void Hypotheses::clear() { *this = {}; }
+void Hypotheses::clear() {
+  hypotheses_.clear();
+  unlisted_ = {0.0, -doubt_};
+  moved_m_ = 0.0;
+}
 
 void Hypotheses::move(const Pose2& motion) {
   for (Hypothesis& hypothesis : hypotheses_)

@@ -16,6 +16,10 @@ double rival_support(const PoseMode& candidate, const std::vector<PoseMode>& all
 /// possibility.
 class Hypotheses {
  public:
+  /// `doubt`: logarithm of the odds by which every place is less probable from the start than what
+  /// scans say for it.
+  explicit Hypotheses(double doubt = 0.0) : doubt_(doubt) { clear(); }
+
   bool empty() const { return hypotheses_.empty(); }
   void clear();
 
@@ -45,6 +49,7 @@ class Hypotheses {
   LogOdds past(const Pose2& pose) const;
   void keep_distinct(const std::vector<Hypothesis>& sorted);
 
+  double doubt_;
   std::vector<Hypothesis> hypotheses_;
   // What scans said of a pose that none so far has listed.
   LogOdds unlisted_;

@@ -43,6 +43,11 @@ bool lists(const std::vector<PoseMode>& modes, const Pose2& pose) {
 }
 
 // A hypothesis that has moved, where the scan fits best; where it was expected if it fits nowhere.
+// Above people's heads there is little that another building lacks: where only a band of heights is
+// matched, a place must be likelier by this logarithm of odds. Chosen on seeds 1 and 2 of
+// bench_ceiling; with 0 two of 40 scans of another building were claimed.
+constexpr double kDoubtOfBand = 3.0;
+
 PoseMode found_again(Matcher& matcher, const PreparedScan& scan, const PoseMode& expected) {
   const Match match =
       matcher.match(scan, PoseWindow{expected.T_map_base, kOff_m, kOff_m, kOff_rad});
@@ -157,6 +162,11 @@ Localisation from_match(const PreparedScan& scan, const Match& match) {
   result.significance_log10 = match.significance_log10;
   return result;
 }
+
+LostSearch::LostSearch(const MatcherConfig& config, const MotionLimits& limits)
+    : config_(config),
+      limits_(limits),
+      hypotheses_(config.scan.match_heights_m.empty() ? 0.0 : kDoubtOfBand) {}
 
 Localisation LostSearch::add(const PreparedScan& scan, const std::optional<Pose2>& T_odom_base,
                              Matcher& matcher, const std::optional<UncertainPose>& hint) {

@@ -15,8 +15,7 @@ namespace voxlist::matching {
 /// them is sure.
 class LostSearch {
  public:
-  LostSearch(const MatcherConfig& config, const MotionLimits& limits)
-      : config_(config), limits_(limits) {}
+  LostSearch(const MatcherConfig& config, const MotionLimits& limits);
 
   /// Modes come with their probabilities, the most probable first. TRACKING: the first is sure.
   /// AMBIGUOUS: one of the modes is probably right. LOST: probably none. `hint`: likely places near

@@ -26,7 +26,7 @@ const std::vector<double> kAboveHeads_m{1.9, 4.0};
 constexpr double kNearest_m = 0.8, kFarthest_m = 8.0, kApart_m = 0.5, kRoom_m = 0.25;
 // Their eyes (m): those in sight can look at the scanner.
 constexpr double kEyes_m = 1.6, kScanner_m = 1.2;
-constexpr int kTries = 20'000;
+constexpr int kTries = 1000;
 
 using People = std::vector<simulation::Trajectory>;
 
@@ -46,10 +46,11 @@ std::vector<Pose2> crowd_round(const simulation::Building& building, const Pose2
     const Pose2 spot{robot.x_m + range_m * std::cos(bearing),
                      robot.y_m + range_m * std::sin(bearing),
                      random.uniform(-std::numbers::pi, std::numbers::pi)};
-    const bool is_free =
-        building.clearance_m({spot.x_m, spot.y_m}, 0.05, 1.8) > kRoom_m &&
+    const bool is_apart =
         std::ranges::none_of(crowd, [&](const Pose2& p) { return distance_m(p, spot) < kApart_m; });
-    if (is_free && sees(building, robot, spot)) crowd.push_back(spot);
+    if (is_apart && sees(building, robot, spot) &&
+        building.clearance_m({spot.x_m, spot.y_m}, 0.05, 1.8) > kRoom_m)
+      crowd.push_back(spot);
   }
   return crowd;
 }
