@@ -44,7 +44,7 @@ class Follower {
   }
 
  private:
-  static constexpr double kRadius_m = 0.3, kMargin_m = 0.1, kTopSpeed_mps = 1.0,
+  static constexpr double kRadius_m = 0.3, kMargin_m = 0.1, kBeside_m = 0.05, kTopSpeed_mps = 1.0,
                           kSlowest_mps = 0.02, kBrakes_mps2 = 1.0, kReaction_s = 0.2,
                           kThere_m = 0.2, kAside_rad = 0.5, kForesight_s = 1.0;
   static constexpr std::int64_t kOldest_us = 300'000;
@@ -61,7 +61,7 @@ class Follower {
   double gap_m() const {
     double gap_m = std::numeric_limits<double>::infinity();
     const auto block = [&](double x, double y, double radius_m) {
-      if (x > 0.0 && std::abs(y) < kRadius_m + kMargin_m + radius_m)
+      if (x > 0.0 && std::abs(y) < kRadius_m + kBeside_m + radius_m)
         gap_m = std::min(gap_m, x - radius_m - kRadius_m - kMargin_m);
     };
     for (std::size_t i = 0; i < obstacles_.ground_seen_to_m.size(); ++i) {

@@ -9,7 +9,7 @@ import sys
 from voxlist import obstacles_t, pose_t
 from voxlist.event_log import read_events
 
-RADIUS_M, MARGIN_M, TOP_SPEED_MPS, SLOWEST_MPS = 0.3, 0.1, 1.0, 0.02
+RADIUS_M, MARGIN_M, BESIDE_M, TOP_SPEED_MPS, SLOWEST_MPS = 0.3, 0.1, 0.05, 1.0, 0.02
 BRAKES_MPS2, REACTION_S, THERE_M, ASIDE_RAD, FORESIGHT_S = 1.0, 0.2, 0.2, 0.5, 1.0
 OLDEST_US = 300_000
 
@@ -60,7 +60,7 @@ class Follower:
         for m in o.moving:
             x, y = (p + FORESIGHT_S * v for p, v in zip(m.position, m.velocity))
             blocks.append((x, y, m.radius_m))
-        gaps = [x - radius_m for x, y, radius_m in blocks if x > 0.0 and abs(y) < RADIUS_M + MARGIN_M + radius_m]
+        gaps = [x - radius_m for x, y, radius_m in blocks if x > 0.0 and abs(y) < RADIUS_M + BESIDE_M + radius_m]
         return max(0.0, min(gaps, default=math.inf) - RADIUS_M - MARGIN_M)
 
 
