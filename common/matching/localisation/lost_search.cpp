@@ -42,12 +42,12 @@ bool lists(const std::vector<PoseMode>& modes, const Pose2& pose) {
   });
 }
 
-// A hypothesis that has moved, where the scan fits best; where it was expected if it fits nowhere.
 // Above people's heads there is little that another building lacks: where only a band of heights is
-// matched, a place must be likelier by this logarithm of odds. Chosen on seeds 1 and 2 of
+// matched, a place must be likelier by this logarithm of odds. Chosen on seed 1 of
 // bench_ceiling; with 0 two of 40 scans of another building were claimed.
 constexpr double kDoubtOfBand = 3.0;
 
+// A hypothesis that has moved, where the scan fits best; where it was expected if it fits nowhere.
 PoseMode found_again(Matcher& matcher, const PreparedScan& scan, const PoseMode& expected) {
   const Match match =
       matcher.match(scan, PoseWindow{expected.T_map_base, kOff_m, kOff_m, kOff_rad});
