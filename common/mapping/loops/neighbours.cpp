@@ -3,6 +3,8 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <numeric>
 #include <optional>
 
@@ -26,6 +28,11 @@ constexpr std::size_t kPairsAtOnce = 8;
 // their reference by 0.01 m and 0.001 rad in the median, and dense drives by 1 mm and 0.01 deg a
 // scan.
 constexpr double kDrift_m = 0.004, kDrift_rad = 0.0004;
+// Odometry that leaves the turn of a step less sure than this (rad) is asked last. It knows where
+// the step began and ended, not the way between: a robot that turned by much may have driven far
+// through ground that was mapped before, without a keyframe, and what its yaw was off by moves the
+// end by more than the step's own length tells.
+constexpr double kTold_rad = 0.05;
 // Where nothing but the map tells how two keyframes stand (m, rad): a share of their distance, too.
 // No match confirms such a step where the map has it, so it stands there by mistake or by little
 // that it shares: of real stations, one of 22 m was off by 2 m.
@@ -88,10 +95,11 @@ class Neighbours {
 
   std::vector<PoseEdge> join() {
     for (std::size_t i = 1; i < poses_.size(); ++i)
-      add(i - 1, i, looks_[i]) || join_with_more(i - 1, i) || join_by_odometry(i - 1, i);
+      add(i - 1, i, looks_[i]) || join_with_more(i - 1, i) || join_by_odometry(i - 1, i, kTold_rad);
     join_parts();
     for (std::size_t i = 1; i < poses_.size(); ++i)
-      if (part_[i - 1] != part_[i]) add(unmatched(i - 1, i));
+      if (part_[i - 1] != part_[i])
+        join_by_odometry(i - 1, i, std::numbers::pi) || add(unmatched(i - 1, i));
     return std::move(edges_);
   }
 
@@ -127,9 +135,9 @@ class Neighbours {
     return looker_.match(to, map, expected(from, to));
   }
 
-  bool join_by_odometry(std::size_t from, std::size_t to) {
+  bool join_by_odometry(std::size_t from, std::size_t to, double vaguest_rad) {
     const auto told = odometry_step(odometry_, from, to);
-    return told && add({from, to, *told});
+    return told && std::sqrt(told->covariance(2, 2)) <= vaguest_rad && add({from, to, *told});
   }
 
   bool add(std::size_t from, std::size_t to, const NeighbourLook& look) {
