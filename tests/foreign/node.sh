@@ -1,10 +1,10 @@
-# What the tests of others' readers share: npm's packages, in the build folder. Sourced, never run.
+# What the tests of others' readers share: the npm packages of the test's folder, in the build folder. Sourced, never run.
 # shellcheck shell=bash
 # shellcheck source=SCRIPTDIR/../../scripts/lib.sh
-source "$(dirname "${BASH_SOURCE[0]}")/../../scripts/lib.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/../scripts/lib.sh"
 
-node_tests=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-modules=${BUILD:?}/foreign_test
+node_tests=$(cd "$(dirname "$0")" && pwd)
+modules=${BUILD:?}/foreign_$(basename "$node_tests")
 for tool in node npm; do command -v "$tool" >/dev/null || skip "$tool is not installed"; done
 
 # Node finds packages beside the files that use them, so the tests run from a copy. One test at a time makes it.
