@@ -6,24 +6,12 @@
 #include "voxlist/bus/bus.h"
 
 namespace voxlist::services {
-namespace {
-
-planning::ScanBand band_of(const planning::RobotProfile& robot) {
-  planning::ScanBand band;
-  band.low_m = robot.step_m;
-  band.high_m = robot.clear_height_m();
-  band.min_range_m = robot.radius_m;
-  return band;
-}
-
-}  // namespace
-
 ScanOutput::ScanOutput(bus::Bus& bus, bus::Health& health,
                        const std::vector<planning::RobotProfile>& robots)
     : bus_(bus), input_(health, service::CloudInput::Sees::kTheNewest) {
   for (const planning::RobotProfile& robot : robots)
-    outputs_.push_back(
-        {band_of(robot), bus::kScanPrefix + robot.name, bus::kScanFarPrefix + robot.name});
+    outputs_.push_back({planning::band_of(robot), bus::kScanPrefix + robot.name,
+                        bus::kScanFarPrefix + robot.name});
   bus_.subscribe(
       bus::kCloud, [this](const pointcloud_t& m) { take(m); }, bus::Delivery::kLatest);
 }

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -55,6 +56,23 @@ TEST_F(Export, WritesAFloorPlanForEachRobot) {
 TEST_F(Export, WritesThatOfADefaultRobotWhereNoneIsListed) {
   EXPECT_EQ(run({"--grid"}).exit_code, 0);
   EXPECT_TRUE(has("robot.yaml"));
+}
+
+TEST_F(Export, WritesAScanOfEachKeyframeForEachRobot) {
+  const std::string robots =
+      config("[[robot]]\nname = 'low'\nheight_m = 0.4\n[[robot]]\nname = 'tall'\n");
+  const test::DeskRun done = run({"--scan", "--config", robots});
+  EXPECT_EQ(done.exit_code, 0) << done.err;
+  for (const char* file :
+       {"low_scan.csv", "low_scan_far.csv", "tall_scan.csv", "tall_scan_far.csv"})
+    EXPECT_EQ(test::read_lines(plans_ + "/" + file).size(), 1U + test::kScans) << file;
+  const auto lines = test::read_lines(plans_ + "/tall_scan.csv");
+  EXPECT_THAT(lines[0], StartsWith("index,utime,x_m,y_m,yaw_rad,step_rad,range_0_m,"));
+  EXPECT_EQ(std::ranges::count(lines[0], ','), std::ranges::count(lines[1], ','));
+  EXPECT_THAT(lines[1], StartsWith("0,"));
+  // Somewhere there is a wall within 10 m.
+  EXPECT_THAT(lines[1], testing::ContainsRegex(",[0-9][.][0-9][0-9][0-9],"));
+  EXPECT_NE(lines, test::read_lines(plans_ + "/low_scan.csv"));
 }
 
 TEST_F(Export, WritesDistancesForNumPyAndAnOctomap) {

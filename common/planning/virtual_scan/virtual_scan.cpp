@@ -45,6 +45,14 @@ void note(float from_z, const Eigen::Vector3f& end, float range_m, const Heights
 
 }  // namespace
 
+ScanBand band_of(const RobotProfile& robot) {
+  ScanBand band;
+  band.low_m = robot.step_m;
+  band.high_m = robot.clear_height_m();
+  band.min_range_m = robot.radius_m;
+  return band;
+}
+
 VirtualScan virtual_scan(const Cloud& cloud_base, const ScanBand& band) {
   const Heights robot{band.low_m, band.high_m},
       walls{band.low_m, std::max(band.high_m, band.furthest_high_m)};

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "voxlist/geometry/cloud.h"
+#include "voxlist/planning/profiles/robot_profile.h"
 
 namespace voxlist::planning {
 
@@ -20,6 +21,9 @@ struct ScanBand {
   /// Evenly round the robot.
   int bearings = 720;
 };
+
+/// What this robot's body takes up.
+ScanBand band_of(const RobotProfile& robot);
 
 /// Horizontal ranges from base's origin, by bearing: +infinity where rays went through the heights
 /// and hit nothing in them, NaN where none did. Nothing seen is not free: a ray may have passed

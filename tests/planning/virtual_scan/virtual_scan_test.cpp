@@ -63,6 +63,18 @@ TEST(VirtualScan, LooksForTheFurthestPointOverPeoplesHeads) {
   EXPECT_FLOAT_EQ(scan.furthest_m[0], 6.F);
 }
 
+TEST(VirtualScan, TakesItsHeightsFromTheRobot) {
+  RobotProfile robot;
+  robot.step_m = 0.02;
+  robot.height_m = 0.4;
+  robot.clearance_m = 0.1;
+  robot.radius_m = 0.25;
+  const ScanBand band = band_of(robot);
+  EXPECT_DOUBLE_EQ(band.low_m, 0.02);
+  EXPECT_DOUBLE_EQ(band.high_m, 0.5);
+  EXPECT_DOUBLE_EQ(band.min_range_m, 0.25);
+}
+
 TEST(VirtualScan, DependsOnTheRobotsHeight) {
   const Cloud table = seen({{2.F, 0.F, 0.75F}, {4.F, 0.F, 0.3F}});
   const auto nearest_m = [&](double height_m) {

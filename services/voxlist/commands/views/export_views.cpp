@@ -9,6 +9,7 @@
 
 #include "services/voxlist/commands/settings.h"
 #include "services/voxlist/commands/views/distance_field.h"
+#include "services/voxlist/commands/views/virtual_scans.h"
 #include "services/voxlist/maps/octomap_of.h"
 #include "services/voxlist/maps/stored_map.h"
 #include "services/voxlist/output/stop.h"
@@ -109,6 +110,9 @@ void add_views(CLI::App& command, ViewOptions& views) {
   command.add_flag("--grid", views.grid,
                    "a floor plan for each robot: NAME.pgm and NAME.yaml for map_server, and "
                    "NAME.png with overhangs and holes");
+  command.add_flag("--scan", views.scan,
+                   "a 2D scan of each keyframe for each robot: NAME_scan.csv, the nearest point of "
+                   "each bearing at its heights, and NAME_scan_far.csv, the furthest");
   command.add_flag("--distance", views.distance,
                    "distance.npy: how far each place is from what is not free (NumPy)");
   command.add_option("--most", views.most_m, "up to which distances are told (m)")
@@ -129,6 +133,8 @@ int export_views(const ViewOptions& options, Console& console) {
     if (options.grid) write_grids(map, options, console);
     if (options.distance) write_distances(map, options, console);
   }
+  if (options.scan)
+    write_virtual_scans(options.map, options.folder, read_robots(options.config).in_use(), console);
   if (options.octomap && !write_octomap(options, console)) return kInterrupted;
   return 0;
 }

@@ -13,11 +13,11 @@ namespace voxlist::desk {
 /// What planners get of a map.
 struct ViewOptions {
   std::filesystem::path map, folder, config;
-  bool grid = false, distance = false, octomap = false, tiles = false;
+  bool grid = false, scan = false, distance = false, octomap = false, tiles = false;
   double most_m = 2.0;  ///< up to which distances are told
 
   /// Whether any view is wanted.
-  bool any() const { return grid || distance || octomap; }
+  bool any() const { return grid || scan || distance || octomap; }
 };
 
 /// Adds options for the views to a command. They must outlive it.
