@@ -9,6 +9,9 @@
 namespace voxlist::planning {
 namespace {
 
+constexpr std::int32_t kTileShift = 3;
+static_assert(1 << kTileShift == kTileEdge);
+
 // Blocks of voxels along a tile's edge.
 constexpr std::int32_t kVoxelBlocks = kTileEdge * kLayersInCell / kBlockEdge;
 
@@ -17,6 +20,9 @@ constexpr float kSameFloor_m = 0.3F;
 
 // Surfaces that differ by less are level: what noise leaves of a column's mean (m).
 constexpr float kLevel_m = 0.01F;
+
+// Tiles in the bounds of which a table of places is kept: 16 MB. Beyond that they are looked up.
+constexpr std::size_t kMostPlaces = std::size_t{1} << 22;
 
 constexpr std::array<std::array<Cell, 2>, 4> kOpposite = {
     {{{{-1, 0}, {1, 0}}}, {{{0, -1}, {0, 1}}}, {{{-1, -1}, {1, 1}}}, {{{-1, 1}, {1, -1}}}}};
@@ -79,6 +85,22 @@ void FloorColumns::grow(const Voxel& tile) {
   bounds_->high = {std::max(bounds_->high.x, high.x), std::max(bounds_->high.y, high.y)};
 }
 
+std::size_t FloorColumns::place_of(const Voxel& tile) const {
+  const auto x = static_cast<std::size_t>(tile.x - bounds_->low.x / kTileEdge);
+  const auto y = static_cast<std::size_t>(tile.y - bounds_->low.y / kTileEdge);
+  return y * static_cast<std::size_t>(bounds_->width() / kTileEdge) + x;
+}
+
+void FloorColumns::place_tiles() {
+  if (placed_ == positions_.size()) return;
+  placed_ = positions_.size();
+  places_.clear();
+  const std::size_t most = bounds_->size() / (kTileEdge * kTileEdge);
+  if (most > kMostPlaces) return;
+  places_.resize(most);
+  for (std::uint32_t i = 0; i < placed_; ++i) places_[place_of(positions_.key(i))] = i + 1;
+}
+
 void FloorColumns::take(const OccupancyMap& map, const OccupancyMap& free_space) {
   *this = {};
   for (std::size_t i = 0; i < map.occupied.block_count(); ++i)
@@ -125,6 +147,7 @@ ColumnTile make_tile(const Voxel& at, const std::vector<std::int32_t>& voxel_hei
 
 void FloorColumns::remake(const std::vector<std::uint32_t>& tiles, const OccupancyMap& map,
                           const OccupancyMap& free_space) {
+  place_tiles();
   for (const std::uint32_t tile : tiles)
     tiles_[tile] = make_tile(positions_.key(tile), heights_[tile].voxels, heights_[tile].free, map,
                              free_space);
@@ -160,14 +183,17 @@ float FloorColumns::kink_of(const Cell& cell, float surface_m) const {
 }
 
 Column FloorColumns::at(const Cell& cell) const {
+  if (!bounds_ || !bounds_->contains(cell)) return {};
+  const Voxel position{cell.x >> kTileShift, cell.y >> kTileShift, 0};
   const std::uint32_t tile =
-      positions_.find({floor_div(cell.x, kTileEdge), floor_div(cell.y, kTileEdge), 0});
+      places_.empty() ? positions_.find(position) : places_[place_of(position)] - 1;
   if (tile == Numbering<Voxel>::kNone) return {};
   return tiles_[tile].at(cell.x & (kTileEdge - 1), cell.y & (kTileEdge - 1));
 }
 
 std::size_t FloorColumns::memory_bytes() const {
-  std::size_t bytes = positions_.memory_bytes() + heights_.capacity() * sizeof(Heights);
+  std::size_t bytes = positions_.memory_bytes() + places_.capacity() * sizeof(std::uint32_t) +
+                      heights_.capacity() * sizeof(Heights);
   for (const ColumnTile& tile : tiles_) bytes += tile.memory_bytes();
   for (const Heights& heights : heights_)
     bytes += (heights.voxels.capacity() + heights.free.capacity()) * sizeof(std::int32_t);

@@ -71,6 +71,8 @@ class FloorColumns {
   void remake(const std::vector<std::uint32_t>& tiles, const OccupancyMap& map,
               const OccupancyMap& free_space);
   void grow(const Voxel& tile);
+  void place_tiles();
+  std::size_t place_of(const Voxel& tile) const;
   void note_kinks(const Voxel& tile);
   float kink_of(const Cell& cell, float surface_m) const;
 
@@ -78,6 +80,9 @@ class FloorColumns {
   std::vector<Heights> heights_;
   std::vector<ColumnTile> tiles_;
   std::optional<CellBox> bounds_;
+  // By place in the bounds the number of a tile and 1, or 0; empty where the bounds are too large.
+  std::vector<std::uint32_t> places_;
+  std::size_t placed_ = 0;  // so many tiles are in places_
 };
 
 }  // namespace voxlist::planning

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 namespace voxlist::planning {
 namespace {
@@ -18,6 +19,12 @@ constexpr std::uint64_t kLowestColumn = 0x0F0F0F0F;
 constexpr std::size_t kSurfaceLayers = 5;
 
 constexpr double kLayer_m = kFinestResolution_m;
+
+// Layers that are no farther apart than this, and no higher together (0.1 m), with nothing close
+// above, are a floor's: what has no more than so many voxels above all others there is a speck that
+// noise left. Without this each square metre of a real hall's floor has an obstacle of one cell.
+constexpr std::int32_t kFloorLayers = 5;
+constexpr int kSpeck = 2;
 
 template <class Visit>
 void for_each_cell(const VoxelBlock& bits, const Visit& visit) {
@@ -68,22 +75,44 @@ void TileMaker::block(Layers& layers, std::int32_t cell) {
   layers.insert(at, whole.begin(), whole.end());
 }
 
-Span TileMaker::span_of(const Layers& layers, std::size_t begin, std::size_t end) {
+Span TileMaker::span_of(std::span<const Layer> layers) {
   double sum = 0.0, weights = 0.0;
-  for (std::size_t i = end - std::min(end - begin, kSurfaceLayers); i < end; ++i) {
-    sum += (layers[i].layer + 0.5) * kLayer_m * layers[i].voxels;
-    weights += layers[i].voxels;
+  for (const Layer& layer : layers.last(std::min(layers.size(), kSurfaceLayers))) {
+    sum += (layer.layer + 0.5) * kLayer_m * layer.voxels;
+    weights += layer.voxels;
   }
-  return {layers[begin].layer, layers[end - 1].layer + 1, static_cast<float>(sum / weights), 0.0F};
+  return {layers.front().layer, layers.back().layer + 1, static_cast<float>(sum / weights), 0.0F};
+}
+
+// Where there are few voxels at all they are one floor, at their mean height.
+void TileMaker::add_flat(std::span<const Layer> flat, std::vector<Span>& spans) {
+  std::size_t count = flat.size();
+  while (count > 0 && flat[count - 1].voxels <= kSpeck) --count;
+  if (count > 0) return add_without_gaps(flat.first(count), spans);
+  Span span = span_of(flat);
+  span.top = static_cast<std::int32_t>(std::floor(span.surface_m / kLayer_m)) + 1;
+  spans.push_back(span);
+}
+
+void TileMaker::add_without_gaps(std::span<const Layer> layers, std::vector<Span>& spans) {
+  std::size_t begin = 0;
+  for (std::size_t i = 1; i <= layers.size(); ++i) {
+    if (i < layers.size() && layers[i].layer == layers[i - 1].layer + 1) continue;
+    spans.push_back(span_of(layers.subspan(begin, i - begin)));
+    begin = i;
+  }
 }
 
 std::vector<Span> TileMaker::spans_of(const Layers& layers) {
   std::vector<Span> spans;
-  std::size_t begin = 0;
-  for (std::size_t i = 1; i <= layers.size(); ++i) {
-    if (i < layers.size() && layers[i].layer == layers[i - 1].layer + 1) continue;
-    spans.push_back(span_of(layers, begin, i));
-    begin = i;
+  for (std::size_t begin = 0, end = 0; begin < layers.size(); begin = end) {
+    while (++end < layers.size() && layers[end].layer - layers[end - 1].layer <= kFloorLayers) {
+    }
+    const std::span near = std::span(layers).subspan(begin, end - begin);
+    if (near.back().layer - near.front().layer <= kFloorLayers)
+      add_flat(near, spans);
+    else
+      add_without_gaps(near, spans);
   }
   return spans;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "voxlist/planning/grids/column_tile.h"
@@ -30,7 +31,9 @@ class TileMaker {
 
   void block(Layers& layers, std::int32_t cell);
   static std::vector<Span> spans_of(const Layers& layers);
-  static Span span_of(const Layers& layers, std::size_t begin, std::size_t end);
+  static void add_flat(std::span<const Layer> flat, std::vector<Span>& spans);
+  static void add_without_gaps(std::span<const Layer> layers, std::vector<Span>& spans);
+  static Span span_of(std::span<const Layer> layers);
 
   static constexpr std::size_t kColumns = kTileEdge * kTileEdge;
   std::array<Layers, kColumns> layers_;

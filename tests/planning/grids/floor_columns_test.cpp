@@ -31,7 +31,7 @@ void expect_alike(const FloorColumns& a, const FloorColumns& b) {
 TEST(FloorColumns, HasWhatStandsWithoutAGapAsOneSpan) {
   DrawnMap drawn;
   drawn.hit({{0, 0, -1}, {4, 4, 1}});
-  drawn.hit({{1, 1, 35}, {2, 2, 37}});
+  drawn.hit({{0, 0, 35}, {4, 4, 37}});
   drawn.pass({{0, 0, 0}, {1, 1, 8}});
   const FloorColumns columns = drawn.columns();
   const Column column = columns.at({0, 0});
@@ -53,6 +53,25 @@ TEST(FloorColumns, TellsAFloorsHeightByHowManyVoxelsItsLayersHave) {
   drawn.hit({{0, 0, 0}, {4, 4, 1}});
   drawn.hit({{0, 0, 1}, {1, 4, 2}});
   EXPECT_NEAR(drawn.columns().at({0, 0}).spans[0].surface_m, (0.01 * 16 + 0.03 * 4) / 20, 1e-6);
+}
+
+TEST(FloorColumns, LeaveOutSpecksAboveAFloorAndNothingElse) {
+  DrawnMap drawn;
+  drawn.hit({{0, 0, -1}, {12, 4, 1}});
+  drawn.hit({{1, 1, 3}, {2, 2, 4}});
+  drawn.hit({{5, 1, 3}, {6, 2, 4}});
+  drawn.hit({{5, 1, 5}, {6, 2, 9}});
+  drawn.hit({{9, 1, 8}, {10, 2, 9}});
+  drawn.hit({{12, 0, -1}, {13, 1, 0}});
+  drawn.hit({{13, 0, 2}, {14, 1, 3}});
+  drawn.hit({{16, 0, -1}, {20, 4, 0}});
+  drawn.hit({{16, 0, 2}, {20, 4, 3}});
+  const FloorColumns columns = drawn.columns();
+  EXPECT_EQ(columns.at({0, 0}).spans.size(), 1u);
+  EXPECT_EQ(columns.at({1, 0}).spans.size(), 3u) << "something thin stands there";
+  EXPECT_EQ(columns.at({2, 0}).spans.size(), 2u) << "too high for a speck";
+  EXPECT_EQ(columns.at({3, 0}).spans.size(), 1u) << "a floor that was hit twice";
+  EXPECT_EQ(columns.at({4, 0}).spans.size(), 2u) << "something flat lies there";
 }
 
 TEST(FloorColumns, AreTheSameWhetherTheyFollowOrAreMadeAnew) {
