@@ -87,6 +87,20 @@ TEST_F(LeavingMap, IsNotInARoomThatLooksMuchLikeTheOneThatItLeft) {
   EXPECT_GT(known_poses_, 0U);
 }
 
+// However long it was covered.
+TEST_F(LeavingMap, IsFoundAtOnceWhereItStood) {
+  drive_.stand_in(0);
+  drive_.look_round(0);
+  known_poses_ = live_.poses.size();
+  Cloud lid;
+  lid.points.emplace_back(0.3F, 0.0F, 0.0F);
+  for (int i = 0; i < 20; ++i) live_.send(lid);
+  drive_.look_round(0);
+  EXPECT_EQ(live_.poses.size(), truth_.size());
+  EXPECT_GT(truth_.size(), known_poses_ + 5);
+  EXPECT_THAT(health(), Not(HasSubstr("apart")));
+}
+
 TEST_F(LeavingMap, JoinsWhenItIsBack) {
   leave(0, 1);
   come_back(false);

@@ -92,6 +92,16 @@ TEST_F(ApartSessionTest, IsJoinedToTheMapOnceItIsFoundThere) {
   EXPECT_FALSE(exists(recording()));
 }
 
+TEST_F(ApartSessionTest, IsJoinedToTheEndWhenTheMapperStops) {
+  MapperScene live(folder_.string());
+  drive_lost(live, kMapped);
+  for (std::size_t i = 1; i <= 3; ++i) step(live, kMapped - i, 0, true);
+  EXPECT_TRUE(exists(recording())) << "not all of it yet";
+  live.service->stop();
+  EXPECT_GE(joined(), kFirst - kMapped + 1);
+  EXPECT_FALSE(exists(recording()));
+}
+
 TEST_F(ApartSessionTest, IsToldInHealthAsLongAsItLasts) {
   MapperScene live(folder_.string());
   drive_lost(live, kMapped);
