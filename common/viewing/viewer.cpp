@@ -39,6 +39,12 @@ void Viewer::forget_map(std::int64_t now_us) {
   scene_.board().put("map", fmt::format("{{\"epoch\":{}}}", levels_.epoch()), now_us);
 }
 
+void Viewer::start_over() {
+  forget_map(0);
+  scene_.clear();
+  scene_.board().put("rewound", "{}", 0);
+}
+
 void Viewer::tick() {
   levels_.refresh(kWorkOfATick);
   for (const MapLevels::Changed& changed : levels_.take_changed())

@@ -43,6 +43,9 @@ class Viewer {
   /// There is no map any more.
   void forget_map(std::int64_t now_us);
 
+  /// Forgets all but what was told first ("hello"), and lets pages know: a recording begins again.
+  void start_over();
+
   /// Brings the levels after the map, some of the way, and tells clients what has changed.
   void tick();
 

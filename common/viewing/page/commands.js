@@ -45,7 +45,8 @@ export class Commands {
     const headers = { "Content-Type": "application/json", "X-Voxlist-Token": this.bus.data("hello")?.token ?? "" };
     try {
       const answer = await fetch(`/command/${name}`, { method: "POST", headers, body: JSON.stringify(what) });
-      toast(answer.ok ? done : `Not done: ${await answer.text()}`);
+      const text = answer.ok ? done : `Not done: ${await answer.text()}`;
+      if (text) toast(text);
       return answer.ok;
     } catch {
       toast("Not done: the viewer does not answer.");

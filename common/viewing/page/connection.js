@@ -1,5 +1,5 @@
 // The stream from the server: everything that was told last, by topic. It comes back by itself.
-import { age_s, read_frame } from "./messages.js";
+import { read_frame } from "./messages.js";
 
 /** @typedef {import("./messages.js").Told} Told */
 
@@ -13,6 +13,9 @@ export class Connection {
     this.hear = hear;
     /** @type {Map<string, Told>} */
     this.topics = new Map();
+    // The bus's time goes on with this one's, or as a recording is played; ms since any moment.
+    this.speed = 1;
+    this.clock = { real_ms: performance.now(), bus_ms: 0 };
     this.bytes = 0;
     this.frames = 0;
     /** @type {WebSocket | undefined} */
@@ -40,7 +43,7 @@ export class Connection {
     this.bytes += buffer.byteLength;
     ++this.frames;
     this.last_ms = performance.now();
-    const told = read_frame(buffer);
+    const told = { ...read_frame(buffer), heard_ms: this.bus_ms };
     if (told.topic !== "blocks") this.topics.set(told.topic, told);
     this.hear(told);
   }
@@ -54,6 +57,16 @@ export class Connection {
     silent?.close();
   }
 
+  get bus_ms() {
+    return this.clock.bus_ms + this.speed * (performance.now() - this.clock.real_ms);
+  }
+
+  /** @param {number} speed of a recording, as times of real time; 0: it stands still */
+  run_at(speed) {
+    this.clock = { real_ms: performance.now(), bus_ms: this.bus_ms };
+    this.speed = speed;
+  }
+
   get alive() {
     return performance.now() - this.last_ms < 1000 * SILENCE_S;
   }
@@ -65,7 +78,8 @@ export class Connection {
 
   /** @param {string} topic */
   age_s(topic) {
-    return age_s(this.topics.get(topic));
+    const told = this.topics.get(topic);
+    return told ? (told.age_ms + this.bus_ms - told.heard_ms) / 1000 : Infinity;
   }
 
   /**

@@ -7,6 +7,7 @@ import { MapStore } from "./map_store.js";
 import { Overlay } from "./overlay.js";
 import { on_theme } from "./palette.js";
 import { element, show_map, show_services, show_state, toast } from "./panels.js";
+import { Timebar } from "./timebar.js";
 import { SplatRenderer } from "./splat.js";
 import { WebglRenderer } from "./webgl.js";
 
@@ -29,17 +30,20 @@ const bus = new Connection((told) => {
   if (told.topic === "blocks") map.take(told.data, told.bytes);
   else if (told.topic === "map" && told.data.epoch !== map.epoch) map.start_over(told.data.epoch);
   else if (told.topic === "hello") start_session();
+  else if (told.topic === "clock") bus.run_at(told.data.speed);
+  else if (told.topic === "rewound") start_session();
   else if (told.topic === "path") for (const old of bus.with_prefix("path/")) drop_before(old.topic, told.data.first);
   else if (told.topic === "loop") note_loop(told);
   else if (told.topic.startsWith("grid/")) grids.take(told).then(() => (dirty = true));
 });
 const overlay = new Overlay(/** @type {HTMLCanvasElement} */ (element("overlay")), camera, bus, grids, layers);
 const commands = new Commands(bus, overlay, camera, look);
+const timebar = new Timebar(bus, commands);
 
 // The server is another one, or was left for a while: it tells all of it again.
 function start_session() {
   map.start_over(-1);
-  for (const prefix of ["path/", "slice/", "grid/"]) bus.forget(prefix);
+  for (const prefix of ["path/", "slice/", "grid/", "robot", "pose", "sigma", "cloud", "edits", "service/"]) bus.forget(prefix);
   overlay.loops = [];
 }
 
@@ -169,6 +173,7 @@ function show_panels() {
   show_map(bus, map, renderer.name);
   show_layers();
   commands.show();
+  timebar.show();
   document.body.classList.toggle("stale", !bus.alive);
   dirty = true; // ages have grown
 }

@@ -27,15 +27,7 @@
 export function read_frame(buffer) {
   const length = new DataView(buffer).getUint32(0, true);
   const told = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, length)));
-  return { ...told, bytes: buffer.slice(4 + length), heard_ms: performance.now() };
-}
-
-/**
- * How old (s) what was told is now.
- * @param {Told | undefined} told
- */
-export function age_s(told) {
-  return told ? (told.age_ms + performance.now() - told.heard_ms) / 1000 : Infinity;
+  return { ...told, bytes: buffer.slice(4 + length), heard_ms: 0 };
 }
 
 /**

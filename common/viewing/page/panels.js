@@ -62,6 +62,7 @@ function tell(state, line, more) {
 /** @param {Connection} bus */
 export function show_services(bus) {
   const body = /** @type {HTMLTableSectionElement} */ (element("services").firstElementChild);
+  for (const row of body.rows) row.toggleAttribute("data-stale", !bus.topics.has(`service/${row.dataset.service}`));
   for (const told of bus.with_prefix("service/")) {
     const service = /** @type {import("./messages.js").Service} */ (told.data);
     const row = row_of(body, service.service);

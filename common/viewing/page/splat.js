@@ -94,20 +94,24 @@ export class SplatRenderer {
    */
   splat(vertices, size, look) {
     const [ax, ay, az] = this.axes;
+    const [xx, xy, xz, yx, yy, yz, dx, dy, dz] = [ax.x, ay.x, az.x, ax.y, ay.y, az.y, ax.depth, ay.depth, az.depth];
     const { pixels, depths, shade_of_height, colours } = this;
-    const [width, height] = [this.canvas.width, this.canvas.height];
+    const width = this.canvas.width;
+    const most_left = width - size;
+    const most_top = this.canvas.height - size;
     const by_age = look.colour === "age";
     for (let i = 0; i < vertices.length; ++i) {
       const v = vertices[i];
-      const [x, y, z] = [v & 63, (v >> 8) & 63, (v >> 16) & 63];
+      const x = v & 63;
+      const y = (v >> 8) & 63;
+      const z = (v >> 16) & 63;
       const height_shade = shade_of_height[z];
       if (height_shade < 0) continue;
-      const left = (ax.x[x] + ay.x[y] + az.x[z]) >> FRACTION;
-      const top = (ax.y[x] + ay.y[y] + az.y[z]) >> FRACTION;
-      if (left < 0 || top < 0 || left + size > width || top + size > height) continue;
-      const depth = ax.depth[x] + ay.depth[y] + az.depth[z];
-      const shade = by_age ? v >>> 26 : height_shade;
-      const colour = colours[shade + ((v >> 24) & 1 ? SHADES : 0)];
+      const left = (xx[x] + xy[y] + xz[z]) >> FRACTION;
+      const top = (yx[x] + yy[y] + yz[z]) >> FRACTION;
+      if (left < 0 || top < 0 || left > most_left || top > most_top) continue;
+      const depth = dx[x] + dy[y] + dz[z];
+      const colour = colours[(by_age ? v >>> 26 : height_shade) + ((v >> 24) & 1) * SHADES];
       for (let row = top * width + left, end = row + size * width; row < end; row += width)
         for (let at = row; at < row + size; ++at)
           if (depth < depths[at]) {

@@ -21,6 +21,14 @@ void Board::drop(const std::string& prefix) {
   }
 }
 
+void Board::drop_all_but(const std::string& name) {
+  std::erase_if(numbers_, [&](const auto& topic) {
+    if (topic.first == name) return false;
+    by_number_.erase(topic.second);
+    return true;
+  });
+}
+
 Board::Entry Board::next_after(std::int64_t seen) const {
   const auto next = by_number_.upper_bound(seen);
   if (next == by_number_.end()) return {seen, nullptr};

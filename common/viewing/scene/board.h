@@ -32,6 +32,9 @@ class Board {
   /// Forgets the topics whose names begin so. Whoever has seen them is not told.
   void drop(const std::string& prefix);
 
+  /// Forgets all topics but one.
+  void drop_all_but(const std::string& name);
+
   /// What was told first after `seen`, with its number; nothing is left out by who starts with 0.
   /// Null: nothing is new.
   struct Entry {

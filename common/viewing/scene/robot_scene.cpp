@@ -126,6 +126,12 @@ void RobotScene::take(const bus::MapChange& change, std::int64_t now_us) {
   travelled_.interrupt();
 }
 
+void RobotScene::clear() {
+  board_.drop_all_but("hello");
+  start_over(0);
+  state_ = -1;
+}
+
 void RobotScene::start_over(std::int64_t now_us) {
   travelled_.start_over(now_us, board_);
   pose_.reset();

@@ -49,6 +49,9 @@ class RobotScene {
   /// The map is another one.
   void start_over(std::int64_t now_us);
 
+  /// Forgets all but "hello".
+  void clear();
+
   /// Whether edits by hand of this map were told.
   bool knows_edits() const { return knows_edits_; }
 
