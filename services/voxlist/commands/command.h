@@ -30,6 +30,7 @@ void add_info(CLI::App& program, Command& chosen);
 void add_export(CLI::App& program, Command& chosen);
 void add_octomap(CLI::App& program, Command& chosen);
 void add_slice(CLI::App& program, Command& chosen);
+void add_view(CLI::App& program, Command& chosen);
 void add_simulate(CLI::App& program, Command& chosen);
 void add_calibrate(CLI::App& program, Command& chosen);
 void add_watch(CLI::App& program, Command& chosen);

@@ -82,6 +82,7 @@ int run_desk(std::vector<std::string> arguments, Console& console) {
   add_export(program, chosen);
   add_octomap(program, chosen);
   add_slice(program, chosen);
+  add_view(program, chosen);
   add_simulate(program, chosen);
 #ifdef VOXLIST_CALIBRATION
   add_calibrate(program, chosen);

@@ -125,10 +125,36 @@ async function records(page) {
   const on = () => document.getElementById("record").getAttribute("aria-pressed");
   await page.click("#record");
   await within(page, 3, "it records", () => document.getElementById("record").getAttribute("aria-pressed") === "true");
-  await page.waitForTimeout(700);
+  await page.waitForTimeout(3000);
   await page.click("#record");
   await within(page, 3, "and stops", () => document.getElementById("record").getAttribute("aria-pressed") === "false");
   check("there is a recording", existsSync(folder) && readdirSync(folder).some((name) => name.endsWith(".lcm.00")), on);
+}
+
+/** The recording that was made, as a page with a time bar. */
+async function replays() {
+  const folder = join(XDG_STATE_HOME, "voxlist", "recordings");
+  const name = readdirSync(folder).find((name) => name.endsWith(".lcm.00"));
+  desk = new Player("voxlist", "view", join(folder, name), "--port", "7669");
+  await desk.hears("voxlist view says where its page is", /7669/);
+  await with_page("http://127.0.0.1:7669/", async (page, errors) => {
+    await within(page, 5, "the time bar is there, the orders are not",
+      () => !document.getElementById("timebar").hidden && document.getElementById("orders").hidden);
+    await shows(page, 5, "TRACKING");
+    const track = await page.locator("#track").boundingBox();
+    await page.mouse.click(track.x + track.width - 3, track.y + 15);
+    await within(page, 3, "a click goes there", () => {
+      const { begin_us, end_us } = voxlist.bus.data("hello").recording;
+      return voxlist.bus.data("clock").utime_us > begin_us + 0.9 * (end_us - begin_us);
+    });
+    await within(page, 3, "it stops at the end", () => voxlist.bus.data("clock").speed === 0);
+    await page.waitForTimeout(2600);
+    await shows(page, 1, "TRACKING");
+    await page.click("#play");
+    await within(page, 3, "and plays again", () => voxlist.bus.data("clock").speed === 1);
+    check("without faults", errors.length === 0, errors.join("; "));
+    await shot(page, "time_bar");
+  });
 }
 
 async function is_never_stale(page, stage, viewer) {
@@ -158,6 +184,7 @@ async function follows_another_mapper(page, stage) {
 
 const viewer = new Player("viewer");
 let stage = new Player("stage", "1");
+let desk;
 try {
   await with_page(URL_OF_PAGE, async (page, errors) => {
     const elsewhere = [];
@@ -172,6 +199,7 @@ try {
     await shot(page, "dark");
     check("nobody else was asked", elsewhere.length === 0, elsewhere.join("; "));
   });
+  await replays();
   await with_page(URL_OF_PAGE, async (page) => {
     await shows(page, 5, "TRACKING");
     await within(page, 5, "a phone has the map", () => voxlist.map.is_whole && voxlist.stats.frames > 3);
@@ -192,4 +220,5 @@ try {
 } finally {
   stage.kill("SIGKILL");
   viewer.kill("SIGKILL");
+  desk?.kill("SIGKILL");
 }
