@@ -19,8 +19,10 @@ std::string new_session() {
   return fmt::format("{:08x}{:08x}", random(), random());
 }
 
-// Clients see whatever is new of the map, once a second at most.
-foreign::ConverterConfig live_config() { return {.retelling = {.share = 0.0}}; }
+// Clients see whatever is new of the map, every other second at most: it is told as a whole.
+foreign::ConverterConfig live_config() {
+  return {.retelling = {.share = 0.0, .after_us = 2'000'000}};
+}
 
 }  // namespace
 

@@ -15,7 +15,7 @@
 namespace voxlist::foreign {
 
 struct ConverterConfig {
-  /// Edge of the voxels that the map is told in (m), unless its own are larger.
+  /// Largest edge of the voxels that the map is told in (m), unless its own are larger.
   double map_detail_m = 0.1;
   /// When map and path are told again.
   RetellingConfig retelling;

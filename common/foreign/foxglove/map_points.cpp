@@ -4,8 +4,19 @@
 
 #include "voxlist/bus/maps/map_convert.h"
 #include "voxlist/foreign/foxglove/scene_messages.h"
+#include "voxlist/voxels/halved.h"
 
 namespace voxlist::foreign {
+namespace {
+
+Packed points_of(const VoxelMap& map) {
+  Packed points{point_fields(), {}};
+  points.data.reserve(map.size() * stride_of(points.fields));
+  map.for_each_voxel([&](const Voxel& voxel) { pack(center(voxel, map.resolution_m()), points); });
+  return points;
+}
+
+}  // namespace
 
 std::size_t MapPoints::apply(const bus::MapChange& change) {
   utime_us_ = change.utime_us;
@@ -15,14 +26,15 @@ std::size_t MapPoints::apply(const bus::MapChange& change) {
 }
 
 Packed MapPoints::points() const {
-  const double own_m = map_.occupied.resolution_m(), edge_m = std::max(own_m, detail_m_);
-  VoxelMap level(edge_m);
-  map_.occupied.for_each_voxel(
-      [&](const Voxel& voxel) { level.insert(voxel_at(center(voxel, own_m), edge_m)); });
-  Packed points{point_fields(), {}};
-  points.data.reserve(level.size() * stride_of(points.fields));
-  level.for_each_voxel([&](const Voxel& voxel) { pack(center(voxel, edge_m), points); });
-  return points;
+  return 2.0 * map_.occupied.resolution_m() > detail_m_ ? points_of(map_.occupied)
+                                                        : points_of(coarser(map_.occupied));
+}
+
+// The largest voxels that are made of the map's by doubling, and no larger than wanted.
+VoxelMap MapPoints::coarser(const VoxelMap& map) const {
+  VoxelMap level = halved(map);
+  while (2.0 * level.resolution_m() <= detail_m_) level = halved(level);
+  return level;
 }
 
 }  // namespace voxlist::foreign

@@ -8,7 +8,8 @@
 
 namespace voxlist::foreign {
 
-/// The map as points: centres of voxels of `detail_m`, or of the map's own where those are larger.
+/// The map as points: centres of its voxels, doubled in size as long as they are no larger than
+/// `detail_m`.
 class MapPoints {
  public:
   explicit MapPoints(double detail_m) : detail_m_(detail_m) {}
@@ -20,10 +21,11 @@ class MapPoints {
   std::int64_t utime_us() const { return utime_us_; }
   std::int64_t map_id() const { return map_id_; }
 
-  /// Cost: some 20 ns a voxel of the map.
   Packed points() const;
 
  private:
+  VoxelMap coarser(const VoxelMap& map) const;
+
   double detail_m_;
   OccupancyMap map_;
   std::int64_t utime_us_ = 0, map_id_ = 0;

@@ -96,7 +96,7 @@ TEST_F(AConverter, TellsTheWholeMapInTheEndAndLessWhileItGrows) {
   ASSERT_GT(maps.size(), 3U);
   for (std::size_t i = 1; i < maps.size(); ++i)
     EXPECT_GT(points_in(maps[i]), points_in(maps[i - 1]));
-  // The wall that was seen is 4 m and the robot's way long, 2 m high, in voxels of 0.1 m.
+  // The wall that was seen is 4 m and the robot's way long, 2 m high, in voxels of at most 0.1 m.
   const double length_m = 4.0 + test::x_m(test::kSeconds - 1);
   EXPECT_GT(points_in(maps.back()), 0.9 * length_m * 10 * 20);
   EXPECT_EQ(maps.back().frame_id(), "map");
