@@ -8,6 +8,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -234,6 +235,25 @@ TEST(WebServer, HoldsOneFrameOfAClientThatReadsNothing) {
   // What the kernel holds, and one frame.
   EXPECT_GT(served.frames, 10'000 - 160);
   EXPECT_LT(served.frames, 10'000);
+}
+
+TEST(WebServer, ServesOnAfterFramesOfRandomBytes) {
+  Served served;
+  std::mt19937 random(1);
+  for (int i = 0; i < 300; ++i) {
+    const FileDescriptor fd = connect_to(served.server.port());
+    ASSERT_THAT(served.talk(fd, served.upgrade()), StartsWith("HTTP/1.1 101")) << i;
+    std::string frame(random() % 300 + 2, 0);
+    for (char& byte : frame) byte = static_cast<char>(random());
+    if (i % 2 == 0) frame[1] = static_cast<char>(0x80 | (random() % 126));  // masked, and as short
+    send(fd.get(), frame.data(), frame.size(), MSG_NOSIGNAL);
+    for (int poll = 0; poll < 5; ++poll) served.server.poll();
+    shutdown(fd.get(), SHUT_RDWR);
+    for (int poll = 0; poll < 100 && served.server.clients() > 0; ++poll) served.server.poll();
+    ASSERT_EQ(served.server.clients(), 0) << i;
+  }
+  EXPECT_THAT(served.ask("GET / HTTP/1.1\r\nHost: " + served.own() + "\r\n\r\n"),
+              StartsWith("HTTP/1.1 200"));
 }
 
 }  // namespace
