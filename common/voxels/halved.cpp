@@ -18,18 +18,24 @@ std::uint64_t halved_slices(std::uint64_t lower, std::uint64_t upper) {
 
 }  // namespace
 
+VoxelBlock halved_block(const VoxelBlock& block) {
+  VoxelBlock half{};
+  for (std::size_t z = 0; z < half.size() / 2; ++z)
+    half[z] = halved_slices(block[2 * z], block[2 * z + 1]);
+  return half;
+}
+
 VoxelMap halved(const VoxelMap& map) {
   constexpr int kHalf = kBlockEdge / 2;
   VoxelMap result(2.0 * map.resolution_m());
   for (std::size_t i = 0; i < map.block_count(); ++i) {
     const Voxel& at = map.block_position(i);
-    const VoxelBlock& from = map.block(i);
+    const VoxelBlock half = halved_block(map.block(i));
     // The block's eighth of the large block that it is in.
     const int corner = kHalf * (at.x & 1) + kHalf * kBlockEdge * (at.y & 1);
     const auto first = static_cast<std::size_t>(kHalf * (at.z & 1));
     VoxelBlock to{};
-    for (std::size_t z = 0; z < kHalf; ++z)
-      to[first + z] = halved_slices(from[2 * z], from[2 * z + 1]) << corner;
+    for (std::size_t z = 0; z < kHalf; ++z) to[first + z] = half[z] << corner;
     result.merge_block({at.x >> 1, at.y >> 1, at.z >> 1}, to);
   }
   return result;

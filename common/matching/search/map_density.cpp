@@ -1,5 +1,9 @@
 #include "voxlist/matching/search/map_density.h"
 
+#include <array>
+#include <bit>
+#include <cstdint>
+
 #include "voxlist/voxels/halved.h"
 
 namespace voxlist::matching {
@@ -14,17 +18,32 @@ constexpr double kClosed = 2.5;
 // judgement.
 constexpr double kCoarsest_m = 0.16;
 
-double occupied(const VoxelMap& map) { return static_cast<double>(map.size()); }
+// A block is halved so often until it is one voxel: then it is as large as the coarsest cells of
+// the finest map.
+constexpr std::size_t kHalvings = 3;
+
+// Occupied cells of twice the edge of the voxels, four times, eight times. A block has whole cells
+// of each, so it is counted by itself.
+std::array<double, kHalvings> count_cells(const VoxelMap& map) {
+  std::array<double, kHalvings> cells{};
+  for (std::size_t i = 0; i < map.block_count(); ++i) {
+    VoxelBlock block = map.block(i);
+    for (double& count : cells) {
+      block = halved_block(block);
+      for (const std::uint64_t word : block) count += std::popcount(word);
+    }
+  }
+  return cells;
+}
 
 }  // namespace
 
 double closed_cell_m(const VoxelMap& map) {
-  VoxelMap cells = halved(map), larger = halved(cells);
-  while (cells.resolution_m() < kCoarsest_m && occupied(cells) < kClosed * occupied(larger)) {
-    cells = std::move(larger);
-    larger = halved(cells);
-  }
-  return cells.resolution_m();
+  const std::array<double, kHalvings> cells = count_cells(map);
+  double cell_m = 2.0 * map.resolution_m();
+  for (std::size_t i = 0; i + 1 < kHalvings; ++i, cell_m *= 2.0)
+    if (cell_m >= kCoarsest_m || cells[i] >= kClosed * cells[i + 1]) break;
+  return cell_m;
 }
 
 }  // namespace voxlist::matching

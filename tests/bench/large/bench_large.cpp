@@ -34,8 +34,10 @@ OccupancyMap map_of(const std::string& folder) {
     poses.push_back({keyframe.cloud.utime_us, keyframe.T_map_base});
   });
   const mapping::BuiltOf of{store.map_id(), store.keyframes().places(), poses};
-  std::printf("%zu keyframes, %zu of them built\n", poses.size(), read_built(folder, of, builder));
+  const std::size_t built = read_built(folder, of, builder);
+  std::printf("%zu keyframes, %zu of them built\n", poses.size(), built);
   mapping::add_stored(store.keyframes(), poses, builder, [] {});
+  if (built < poses.size()) write_built(folder, of, builder);
   return builder.map();
 }
 
