@@ -18,6 +18,9 @@ constexpr double kHere = 0.5;
 // What one scan says of the other map's place is looked into from this probability on.
 constexpr double kHint = 0.5;
 constexpr std::size_t kMostHints = 8;
+// So is what the same scan says of other places: where one does as well, in a wing that is the same
+// from both of its ends, the likeliest is right by luck.
+constexpr double kRival = 0.01;
 // A scan that was taken as near to one of the map's as this share of how far it reaches sees mostly
 // the map's ground.
 constexpr double kMeetsShare = 0.5;
@@ -90,8 +93,9 @@ class Search {
       const auto found =
           map_.localiser().recognise(level_cloud(spool_, other_.keyframes()[asked_[i]]), kHere);
       if (found.modes.empty() || found.confidence < kHint) continue;
-      const Pose2& T_map_base = found.modes.front().T_map_base;
-      hints.push_back({found.confidence, T_map_base * pose(other_, asked_[i]).inverse()});
+      for (const matching::PoseMode& mode : found.modes)
+        if (mode.probability >= kRival)
+          hints.push_back({mode.probability, mode.T_map_base * pose(other_, asked_[i]).inverse()});
     }
     std::stable_sort(hints.begin(), hints.end(),
                      [](const Hint& a, const Hint& b) { return a.probability > b.probability; });
