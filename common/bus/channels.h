@@ -127,8 +127,9 @@ inline constexpr const char* kTraversabilityPrefix = "TRAVERSABILITY_";
 inline constexpr const char* kScanPrefix = "SCAN_";
 inline constexpr const char* kScanFarPrefix = "SCAN_FAR_";
 
-/// Nearest obstacle in each bearing. Frame: base. Rate: each cloud or slice.
-/// From obstacle_detector to planners.
+/// What stands, hangs and gapes in each bearing, how far the floor is seen, what moves; or why
+/// nothing can be told. Frame: base. Rate: each slice, or cloud where there are no slices; 15 Hz
+/// while it is blind. From obstacle_detector to planners.
 inline constexpr Channel<obstacles_t> kObstacles{"OBSTACLES"};
 
 /// How a service fares (health.h). Rate: 1 Hz.

@@ -1,0 +1,103 @@
+#include <algorithm>
+#include <cmath>
+
+#include "voxlist/planning/obstacles/typed_points.h"
+
+namespace voxlist::planning {
+namespace {
+
+// Rays that go down through one place and the cells round it. A false echo below the floor, as
+// polished stone makes, is alone; a hole of 0.3 m is met by eight beams of one line at 2 m, and by
+// four at 4 m.
+constexpr int kRays = 3;
+
+// A robot that comes onto a ramp tilts within a sweep, which moves what is far away by this (rad),
+// beyond some distance (m). Drops are not told farther away than kFarthest_m.
+constexpr float kTilt_rad = 0.05F, kTiltFrom_m = 2.0F, kFarthest_m = 4.0F;
+
+// Floor within this (m) is looked at, not the nearest cell alone: a wall's foot may be taken for
+// it.
+constexpr double kFloor_m = 0.5;
+
+// Whether a point is deeper below all of the floor about it than slope and step explain.
+class Depth {
+ public:
+  Depth(const LocalGrid& grid, const LocalFloor& ground, const ObstacleConfig& config)
+      : grid_(grid), ground_(ground), rule_(config), disc_(grid.disc(kFloor_m)) {}
+
+  bool is_below(float z_m, std::size_t cell) const {
+    if (!is_below(z_m, ground_.height_m[cell], ground_.away_m[cell], cell)) return false;
+    bool below = true;
+    grid_.while_around(cell, disc_, [&](std::size_t other, float away_m) {
+      if (ground_.is_floor[other]) below = is_below(z_m, ground_.height_m[other], away_m, cell);
+      return below;
+    });
+    return below;
+  }
+
+ private:
+  bool is_below(float z_m, float floor_m, float away_m, std::size_t cell) const {
+    const float range_m = grid_.range_m(cell);
+    const float tilt_m = kTilt_rad * std::max(0.0F, range_m - kTiltFrom_m);
+    return floor_m - z_m > rule_.most_m(away_m, range_m) + tilt_m;
+  }
+
+  const LocalGrid& grid_;
+  const LocalFloor& ground_;
+  const FloorRule rule_;
+  const std::vector<LocalGrid::Neighbour> disc_;
+};
+
+// Where a ray went through a level.
+Eigen::Vector3f crossing(const Ray& ray, float level_m) {
+  const float share = (ray.origin.z() - level_m) / (ray.origin.z() - ray.point.z());
+  return ray.origin + share * (ray.point - ray.origin);
+}
+
+// The last floor on the way out to a place, if it is no farther from it than a strip may be unseen.
+Eigen::Vector2f edge_before(const Eigen::Vector2f& place, const LocalGrid& grid,
+                            const LocalFloor& ground, const ObstacleConfig& config) {
+  const Eigen::Vector2f back = -place.normalized();
+  const float reach_m = std::min(static_cast<float>(config.gap_m), place.norm());
+  for (float back_m = 0.0F; back_m < reach_m; back_m += grid.cell_m() / 2.0F) {
+    const auto cell = grid.at(place + back_m * back);
+    if (cell && ground.is_floor[*cell])
+      return place + std::max(0.0F, back_m - grid.cell_m() / 2.0F) * back;
+  }
+  return place;
+}
+
+}  // namespace
+
+std::vector<TypedPoint> find_drops(const LocalGrid& grid, const std::vector<Ray>& rays,
+                                   const LocalFloor& ground, const ObstacleConfig& config,
+                                   std::int64_t until_us) {
+  const Depth depth(grid, ground, config);
+  std::vector<int> through(grid.size());
+  std::vector<TypedPoint> drops;
+  for (const Ray& ray : rays) {
+    const auto cell = grid.at(ray.point.head<2>());
+    if (!cell || ray.utime_us > until_us) continue;
+    const float level_m = ground.height_m[*cell];
+    if (ray.origin.z() <= level_m || !depth.is_below(ray.point.z(), *cell)) continue;
+    const Eigen::Vector3f place = crossing(ray, level_m);
+    const auto from = grid.at(place.head<2>());
+    if (!from || grid.range_m(*from) > kFarthest_m) continue;
+    ++through[*from];
+    drops.push_back({place, ObstacleType::kNegative, *from, ray.utime_us});
+  }
+  const auto beside = grid.disc(1.5 * static_cast<double>(grid.cell_m()));
+  std::erase_if(drops, [&](const TypedPoint& drop) {
+    int rays_there = through[drop.cell];
+    grid.around(drop.cell, beside, [&](std::size_t other, float) { rays_there += through[other]; });
+    const auto away_m = static_cast<double>(drop.place().norm());
+    return rays_there < kRays || away_m < config.min_range_m || away_m > config.max_range_m;
+  });
+  for (TypedPoint& drop : drops) {
+    drop.point.head<2>() = edge_before(drop.place(), grid, ground, config);
+    drop.cell = grid.at(drop.place()).value_or(drop.cell);
+  }
+  return drops;
+}
+
+}  // namespace voxlist::planning

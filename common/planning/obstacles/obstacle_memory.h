@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <tuple>
+#include <vector>
+
+#include "voxlist/planning/obstacles/typed_points.h"
+
+namespace voxlist::planning {
+
+/// What was seen round the robot and is not in sight now, as in the ring that the robot hides from
+/// its own scanner: floor that it drives over, obstacles and drops that it stands before. It is
+/// kept in odom, cell by cell, until rays see something else there.
+class ObstacleMemory {
+ public:
+  /// Forgets what was last seen before `oldest_us`.
+  void forget_before(std::int64_t oldest_us);
+
+  /// Counts new rays, in base, that went through where something stood.
+  void look_again(const Pose3& T_odom_base, const std::vector<Ray>& news);
+
+  /// Height of remembered floor in each cell, in base; NaN: none.
+  std::vector<float> floor_heights(const Pose3& T_odom_base, const LocalGrid& grid) const;
+
+  /// Adds what stood or gaped, in base. A drop is forgotten where there is floor now.
+  void recall(const Pose3& T_odom_base, const LocalGrid& grid,
+              const std::vector<std::uint8_t>& is_floor, std::vector<TypedPoint>& points);
+
+  /// Learns what is seen now: the lowest points of the floor's cells, and what stands or gapes.
+  void learn(const Pose3& T_odom_base, std::int64_t utime_us, const LocalGrid& grid,
+             const std::vector<Ray>& rays, const LocalFloor& ground,
+             const std::vector<TypedPoint>& points);
+
+  /// The robot has tilted: the floor is not where it was, nor what was learned since a time.
+  void forget_tilted(std::int64_t since_us);
+
+  void clear() { entries_.clear(); }
+
+ private:
+  static constexpr int kFloor = -1;
+
+  using Key = std::tuple<int, int, int>;  // column and row in odom, type or kFloor
+
+  struct Entry {
+    Eigen::Vector3f point;  // odom
+    std::int64_t utime_us;
+    int passed = 0;
+  };
+
+  void note(const Eigen::Vector3f& point_odom, int type, float cell_m, std::int64_t utime_us);
+
+  std::map<Key, Entry> entries_;
+};
+
+}  // namespace voxlist::planning
