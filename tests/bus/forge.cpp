@@ -26,7 +26,7 @@ Kind kind(Channel<M> channel) {
           }};
 }
 
-// Of one robot's profile.
+// These have the name of a robot's profile in theirs.
 constexpr Channel<pixel_map_t> kGrid{"GRID_low"};
 constexpr Channel<traversability_t> kTraversability{"TRAVERSABILITY_low"};
 

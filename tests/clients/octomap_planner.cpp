@@ -43,7 +43,7 @@ struct Robot {
     return true;
   }
 
-  // From the body's axis to the nearest point of a voxel.
+  // How far the nearest point of a voxel is from the body's axis.
   double distance_m(const octomap::OcTreeKey& key, double x, double y) const {
     const double half_m = map->getResolution() / 2.0;
     return std::hypot(std::max(0.0, std::abs(x - map->keyToCoord(key[0])) - half_m),

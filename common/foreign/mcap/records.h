@@ -44,9 +44,9 @@ void put_record(Op op, std::string_view content, std::string& to);
 
 /// What the messages of a channel are made of.
 struct McapSchema {
-  /// Of the type, such as foxglove.PointCloud.
+  /// The type's name, such as foxglove.PointCloud.
   std::string name;
-  /// Of `data`, such as protobuf.
+  /// How `data` is encoded, such as protobuf.
   std::string encoding;
   /// The type's definition.
   std::string data;
@@ -56,7 +56,7 @@ struct McapSchema {
 struct McapChannel {
   std::uint16_t schema = 0;  ///< number of its schema; 0: none
   std::string topic;
-  /// Of its messages, such as protobuf.
+  /// How its messages are encoded, such as protobuf.
   std::string encoding;
 };
 

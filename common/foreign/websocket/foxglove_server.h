@@ -36,7 +36,7 @@ class FoxgloveServer : public Audience {
  public:
   /// Topics that are known at most: their names come from messages.
   static constexpr std::size_t kMostTopics = 200;
-  /// Of one channel for one client.
+  /// Most bytes of one channel that wait for one client.
   static constexpr std::size_t kWaitingBytes = 65'536;
   /// Answers that wait for one client; more are not given.
   static constexpr std::size_t kMostAnswers = 100;

@@ -51,7 +51,7 @@ class FloorColumns {
   void follow(const OccupancyMap& map, const ChangedBlocks& changed, const OccupancyMap& free_space,
               const ChangedBlocks& changed_free);
 
-  /// Of all columns; none without any.
+  /// The box holds all columns; there is none without any.
   const std::optional<CellBox>& bounds() const { return bounds_; }
 
   /// What stands over a cell; nothing where nothing is known.

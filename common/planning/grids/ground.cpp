@@ -91,7 +91,7 @@ void Ground::step_to(const Cell& cell, float from_m) {
   edge_.push_back(cell);
 }
 
-// To a floor beyond columns without one.
+// Floods on to a floor beyond columns without one.
 void Ground::bridge(const Cell& from, const Cell& way) {
   const float from_m = height_m(from);
   for (std::int32_t gap = 1; gap <= kBridge; ++gap) {

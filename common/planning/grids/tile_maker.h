@@ -22,7 +22,7 @@ class TileMaker {
   ColumnTile made();
 
  private:
-  // So many voxels of a layer.
+  // How many voxels of a column lie in one layer.
   struct Layer {
     std::int32_t layer;
     int voxels;

@@ -32,7 +32,7 @@ struct ObstacleScan {
   /// Sector i is centred on bearing i * step_rad, counter-clockwise from forward (+x).
   double step_rad = 0.0;
 
-  /// For each type the horizontal distance from the frame's origin to the nearest one of each
+  /// Each type has the horizontal distance from the frame's origin to its nearest one of each
   /// sector; infinity: none seen.
   std::array<std::vector<float>, kObstacleTypes> nearest_m;
 

@@ -31,7 +31,7 @@ class RayWindow {
   /// Adds a cloud's rays, in base as of the last advance(), and returns them.
   std::vector<Ray> add(const Cloud& cloud_base);
 
-  /// In base as of the last advance(), oldest first.
+  /// They are in base as of the last advance(), oldest first.
   const std::vector<Ray>& rays() const { return rays_; }
 
   void forget_all_but(std::vector<Ray> news) { rays_ = std::move(news); }

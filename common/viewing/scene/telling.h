@@ -33,7 +33,7 @@ std::string json_of(const traversability_t& message);
 /// Why the localiser knows no place, for a person.
 std::string why_lost(const localisation_t& message);
 
-/// At most `most` points of a cloud, evenly chosen, as 3 x int16 each: centimetres in base. Points
+/// Chooses at most `most` points of a cloud evenly, as 3 x int16 each: centimetres in base. Points
 /// that are not finite, or 300 m away, are left out.
 std::vector<std::uint8_t> points_of(const pointcloud_t& message, std::size_t most);
 

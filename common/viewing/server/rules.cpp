@@ -28,7 +28,7 @@ bool is_own_origin(const Asked& asked) {
   return asked.origin->starts_with(kScheme) && asked.origin->substr(kScheme.size()) == *asked.host;
 }
 
-// As long for a wrong token as for the right one.
+// Takes as long for a wrong token as for the right one.
 bool are_equal(std::string_view a, std::string_view b) {
   if (a.size() != b.size()) return false;
   unsigned difference = 0;

@@ -37,11 +37,11 @@ struct SocketMessage {
 
 /// Another WebSocket protocol on the same port, for other people's viewers: they look on.
 struct ForeignProtocol {
-  /// As clients ask for it.
+  /// Clients ask for it by one of these.
   std::vector<std::string> names{};
   /// Pages elsewhere that may speak it.
   std::vector<std::string> origins{};
-  /// As the owner's.
+  /// They are called as the owner's are.
   std::function<int()> open{};
   std::function<void(int)> close{};
   std::function<std::optional<SocketMessage>(int)> next{};

@@ -30,7 +30,7 @@ struct ApartCloud {
 /// The recordings of clouds that are kept apart, beside a map: `voxlist extend` reads them.
 class ApartFile {
  public:
-  /// In this folder, or nowhere (empty).
+  /// Keeps the file in this folder, or nowhere (empty).
   ApartFile(bus::Health& health, const std::filesystem::path& folder);
   ~ApartFile();
 

@@ -18,7 +18,7 @@ constexpr double kLine_s = 1.0 / 75.0, kBeam_s = kLine_s / 360.0;
 constexpr int kFirstBeam_deg = 25, kLastBeam_deg = 155;
 // Left out where the mirror is edge-on, as cloud_assembler does; and what is too near or far.
 constexpr double kBlindUp_rad = 15.0 * kRadPerDeg, kNearest_m = 0.3, kFarthest_m = 8.183;
-// From the middle to the wheels.
+// The wheels stand so far from the middle.
 constexpr double kWheels_m = 0.2;
 
 }  // namespace

@@ -84,7 +84,7 @@ TEST(BeamSpacing, IsThatOfARingLaser) {
   EXPECT_NEAR(spacing.spacing_rad(), 2.0 * kRadPerDeg, 0.01 * kRadPerDeg);
 }
 
-// From 0.8 m the beam 21.8 deg down meets the floor at 2 m, and 17.0 deg down at 2.62 m.
+// A beam that leaves 0.8 m up, 21.8 deg down, meets the floor at 2 m; 17.0 deg down, at 2.62 m.
 TEST(BeamSpacing, SaysWhereTheNextBeamMeetsTheFloor) {
   EXPECT_NEAR(next_on_floor_m(2.0, 0.8, 4.8 * kRadPerDeg), 2.617, 0.01);
   EXPECT_TRUE(std::isinf(next_on_floor_m(20.0, 0.8, 4.8 * kRadPerDeg)));
