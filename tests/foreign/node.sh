@@ -13,9 +13,10 @@ exec 9>"$modules.lock"
 flock 9
 if ! cmp -s "$node_tests/package-lock.json" "$modules/package-lock.json" || [[ ! -d $modules/node_modules ]]; then
   cp "$node_tests"/package*.json "$modules"
-  (cd "$modules" && npm ci --no-audit --no-fund --ignore-scripts >npm.log 2>&1) || {
+  (cd "$modules" && npm ci --no-audit --no-fund --ignore-scripts \
+    --fetch-retries=1 --fetch-retry-mintimeout=1000 --fetch-retry-maxtimeout=2000 >npm.log 2>&1) || {
     rm "$modules/package-lock.json"
-    skip "npm cannot fetch the readers: $(tail -n 1 "$modules/npm.log")"
+    skip "npm cannot fetch the readers: $(head -n 1 "$modules/npm.log")"
   }
 fi
 cp "$node_tests"/*.js "$modules"

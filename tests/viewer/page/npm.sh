@@ -11,8 +11,9 @@ for tool in node npm; do command -v "$tool" >/dev/null || skip "$tool is not ins
 mkdir -p "$modules"
 if ! cmp -s "$page_tests/package-lock.json" "$modules/package-lock.json" || [[ ! -d $modules/node_modules ]]; then
   cp "$page_tests"/package*.json "$modules"
-  (cd "$modules" && npm ci --no-audit --no-fund --ignore-scripts >npm.log 2>&1) || {
+  (cd "$modules" && npm ci --no-audit --no-fund --ignore-scripts \
+    --fetch-retries=1 --fetch-retry-mintimeout=1000 --fetch-retry-maxtimeout=2000 >npm.log 2>&1) || {
     rm "$modules/package-lock.json"
-    skip "npm cannot fetch playwright-core and typescript: $(tail -n 1 "$modules/npm.log")"
+    skip "npm cannot fetch playwright-core and typescript: $(head -n 1 "$modules/npm.log")"
   }
 fi
