@@ -9,7 +9,7 @@
 
 namespace voxlist::foreign {
 
-/// From the first to the last message (ns); nothing is in it while first_ns > last_ns.
+/// The times of the first and the last message (ns); nothing is in it while first_ns > last_ns.
 struct TimeSpan {
   std::uint64_t first_ns = UINT64_MAX, last_ns = 0;
 

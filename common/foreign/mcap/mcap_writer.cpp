@@ -30,7 +30,7 @@ class Summary {
     put_record(Op::kSummaryOffset, offset, offsets_);
   }
 
-  // With the footer, whose checksum is of all before itself.
+  // Ends with the footer, whose checksum is of all before itself.
   std::string take() {
     const std::uint64_t offsets_at = position_ + bytes_.size();
     bytes_ += offsets_;

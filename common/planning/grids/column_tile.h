@@ -19,7 +19,7 @@ struct Span {
   /// Mean height of its upper 0.1 m, each layer by how many voxels it has (m): a floor's height, to
   /// a few millimetres.
   float surface_m = 0.0F;
-  /// By how much the surfaces on two opposite sides of it differ, where its own lies between (m): a
+  /// How much the surfaces on two opposite sides of it differ, where its own lies between (m): a
   /// kerb that runs through the column looks like two small steps otherwise.
   float kink_m = 0.0F;
 };

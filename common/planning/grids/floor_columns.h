@@ -80,7 +80,8 @@ class FloorColumns {
   std::vector<Heights> heights_;
   std::vector<ColumnTile> tiles_;
   std::optional<CellBox> bounds_;
-  // By place in the bounds the number of a tile and 1, or 0; empty where the bounds are too large.
+  // Each place in the bounds has the number of its tile and 1, or 0; empty where they are too
+  // large.
   std::vector<std::uint32_t> places_;
   std::size_t placed_ = 0;  // so many tiles are in places_
 };

@@ -11,8 +11,8 @@ constexpr double kLayer_m = kFinestResolution_m;
 // What hangs lower than this above the floor stands on it: no robot passes under it (m).
 constexpr double kPassage_m = 0.2;
 
-// Of the space above a floor so much was seen to be free, up to the robot's height or to what
-// hangs there: a wall that was hit in lines has none.
+// A floor is free where this share of the space above it was seen to be free, up to the robot's
+// height or to what hangs there: a wall that was hit in lines has none.
 constexpr double kSeenFree = 0.5;
 
 // Voxels and cells are told apart from a floor to so much (m).

@@ -13,10 +13,10 @@ struct BeamGeometry {
   double spacing_rad = 0.0;
 };
 
-/// For each bearing, how far the floor is confirmed from the robot on (m): until a cell that is
-/// `blocked`, or one of `drops` or beside it, or a strip without floor that is wider than one and a
-/// half beams' spacing explains at its distance, or than gap_m. The first strip may be as wide as
-/// the robot hides, unseen_near_m.
+/// Tells for each bearing how far the floor is confirmed from the robot on (m): until a cell that
+/// is `blocked`, or one of `drops` or beside it, or a strip without floor that is wider than one
+/// and a half beams' spacing explains at its distance, or than gap_m. The first strip may be as
+/// wide as the robot hides, unseen_near_m.
 std::vector<float> floor_reach(const LocalGrid& grid, const LocalFloor& ground,
                                const std::vector<std::uint8_t>& blocked,
                                const std::vector<std::uint8_t>& drops, const BeamGeometry& beams,

@@ -18,8 +18,8 @@ constexpr std::size_t kFewestPoints = 4;
 // A slice's part of a thing is complete when two slices brought no more of it (us).
 constexpr std::int64_t kComplete_us = 130'000;
 
-// From one sighting to the next a thing moves this fast at most, and its middle is seen this far
-// from where it was at least (m/s, m).
+// A thing moves this fast at most (m/s) from one sighting to the next; its middle may always be
+// seen this far (m) from where it was.
 constexpr double kFastest_mps = 2.0, kMiddle_m = 0.3;
 
 // Sightings older than this are no longer looked at (us): as long as points are kept, so that a

@@ -154,7 +154,7 @@ void ObstacleFinder::tell_nearest(const std::vector<TypedPoint>& points, Obstacl
   for (const TypedPoint& point : points) {
     const auto type = static_cast<std::size_t>(point.type);
     const float away_m = point.place().norm();
-    // Of an edge beams meet every other bearing: it goes on for a cell.
+    // Beams meet an edge in every other bearing only: it goes on for a cell.
     const bool is_edge = point.type == ObstacleType::kNegative;
     const double half_rad = is_edge ? 0.5 * config_.cell_m / std::max(away_m, 0.1F) : 0.0;
     const int half = static_cast<int>(half_rad / scan.step_rad);
