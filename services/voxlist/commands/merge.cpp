@@ -81,6 +81,11 @@ std::string refusal(const MergeOptions& options, const Meeting& meeting) {
         "{} were not merged: more than one place looks alike; a drive on through "
         "places that differ, in both, would help",
         maps);
+  if (meeting.twins > 0)
+    return fmt::format(
+        "{} were not merged: the building repeats itself, {} of {} scans on ground of both fit "
+        "elsewhere, too; a drive in both through 10 m that are like no other place would help",
+        maps, meeting.twins, meeting.fitting);
   const std::string fit = meeting.asked == 0 ? "no scan of the one was found in the other"
                                              : fmt::format("{} of {} scans on ground of both fit",
                                                            meeting.fitting, meeting.asked);
@@ -117,13 +122,16 @@ RunFigures figures_of(const MergeOptions& options, const mapping::Piece& piece,
 
 void write(const MergeOptions& options, const DeskSettings& settings, const mapping::Piece& piece,
            mapping::KeyframeSpool& spool, mapping::MapEdits edits, const RunFigures& figures,
-           const drawing::ClosedLoops& closed, Console& console) {
+           const PieceClosing& closing, Console& console) {
   MapFiles files(options.folder);
   const FileLock lock = mapping::lock_folder(options.folder);
   refuse_with_map(options.folder);
   const VoxelMap& voxels = piece.builder().map().occupied;
-  files.write_views(piece.builder().map(), by_time(piece.trajectory()), closed);
+  const std::vector<StampedPose3> trajectory = by_time(piece.trajectory());
+  files.write_views(piece.builder().map(), trajectory, closing.drawn);
   files.write_keyframes(spool, piece.keyframes(), voxels);
+  files.write_graph(closing.graph, voxels);
+  files.write_covariances(trajectory, piece.keyframes().size());
   if (!edits.edits.empty()) files.write_edits(std::move(edits), voxels);
   files.write_octomap(settings.octomap, settings.localiser.threads, !options.making.no_octomap,
                       console);
@@ -156,7 +164,7 @@ int merge(const MergeOptions& options, Console& console) {
   refuse_after_interrupt(options.folder);
   const mapping::MapEdits edits = edits_of_both(options, *piece, console);
   piece->edit(edits);
-  write(options, settings, *piece, spool, edits, figures, closing.drawn, console);
+  write(options, settings, *piece, spool, edits, figures, closing, console);
   console.say(fmt::format(
       "{} of {} scans on ground of both fit: {} and {} keyframes, {} voxels, hash {}",
       meeting.fitting, meeting.asked, piece->first_session(), other->keyframes().size(),

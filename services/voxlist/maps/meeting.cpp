@@ -33,8 +33,10 @@ constexpr std::size_t kRound = 4;
 constexpr double kFits = 0.5;
 constexpr std::size_t kFewest = 4;
 constexpr double kLeastShare = 0.6;
-// Two places are one if a scan fits both within this (m).
-constexpr double kSame_m = 0.5;
+// Two places are one if a scan fits both within this (m, rad).
+constexpr double kSame_m = 0.5, kSame_rad = 0.3;
+// So many of the places that a search names for a scan are looked into for its twins.
+constexpr std::size_t kMostTwins = 8;
 
 // What speaks for one place.
 struct Place {
@@ -42,10 +44,18 @@ struct Place {
   std::size_t asked = 0;
   // T_map_base of each of the other's keyframes that fits.
   std::map<std::size_t, Pose2> fitting;
+  // Those of them that fit elsewhere in the map, too.
+  std::size_t twins = 0;
 
-  bool enough() const {
-    return fitting.size() >= kFewest &&
-           static_cast<double>(fitting.size()) >= kLeastShare * static_cast<double>(asked);
+  bool enough() const { return are_enough(fitting.size()); }
+
+  // Where what is seen is there twice, the building may well have it a third time outside the map: such scans
+  // speak for no place, though they are asked.
+  bool enough_without_twins() const { return are_enough(fitting.size() - twins); }
+
+  bool are_enough(std::size_t scans) const {
+    return scans >= kFewest &&
+           static_cast<double>(scans) >= kLeastShare * static_cast<double>(asked);
   }
 
   bool is(const Place& place) const {
@@ -92,6 +102,8 @@ class Search {
     for (std::size_t i = 0; i < asked_.size() && !stop_requested(); i += each) {
       const auto found =
           map_.localiser().recognise(level_cloud(spool_, other_.keyframes()[asked_[i]]), kHere);
+      std::vector<Pose2>& named = named_[asked_[i]];
+      for (const matching::PoseMode& mode : found.modes) named.push_back(mode.T_map_base);
       if (found.modes.empty() || found.confidence < kHint) continue;
       for (const matching::PoseMode& mode : found.modes)
         if (mode.probability >= kRival)
@@ -126,6 +138,27 @@ class Search {
     return place;
   }
 
+  // Searches named the places that each scan may be at.
+  std::size_t count_twins(const Place& place) {
+    return static_cast<std::size_t>(
+        std::count_if(place.fitting.begin(), place.fitting.end(),
+                      [&](const auto& fit) { return has_twin(fit.first, fit.second); }));
+  }
+
+  bool has_twin(std::size_t keyframe, const Pose2& T_map_base) {
+    const Cloud cloud = level_cloud(spool_, other_.keyframes()[keyframe]);
+    const matching::PreparedScan scan(cloud, config_.scan);
+    const std::vector<Pose2>& named = named_[keyframe];
+    return std::any_of(
+        named.begin(),
+        named.begin() + static_cast<std::ptrdiff_t>(std::min(kMostTwins, named.size())),
+        [&](const Pose2& there) {
+          return (distance_m(there, T_map_base) > kSame_m ||
+                  turn_rad(there, T_map_base) > kSame_rad) &&
+                 fitted(map_round(there), scan, there);
+        });
+  }
+
   // The map's keyframes nearest to a pose, the nearest first.
   std::vector<std::size_t> map_round(const Pose2& T_map_base) const {
     std::vector<std::pair<double, std::size_t>> near;
@@ -151,16 +184,18 @@ class Search {
     return T_map_local * found.match.modes.front().pose;
   }
 
-  Meeting judge(const std::vector<Place>& places) const {
+  Meeting judge(std::vector<Place>& places) {
     const auto best = std::max_element(
         places.begin(), places.end(),
         [](const Place& a, const Place& b) { return a.fitting.size() < b.fitting.size(); });
     if (best == places.end()) return {};
-    Meeting meeting{std::nullopt, best->asked, best->fitting.size(), false};
+    Meeting meeting{std::nullopt, best->asked, best->fitting.size()};
     meeting.alike = std::any_of(places.begin(), places.end(), [&](const Place& place) {
       return &place != &*best && place.enough() && !place.is(*best);
     });
-    if (best->enough() && !meeting.alike) meeting.T_map_other = best->T_map_other;
+    if (!best->enough() || meeting.alike) return meeting;
+    meeting.twins = best->twins = count_twins(*best);
+    if (best->enough_without_twins()) meeting.T_map_other = best->T_map_other;
     return meeting;
   }
 
@@ -169,6 +204,8 @@ class Search {
   mapping::KeyframeSpool& spool_;
   const matching::MatcherConfig config_;
   std::vector<std::size_t> asked_;
+  // T_map_base of the places that a search of the map named for the other's keyframes.
+  std::map<std::size_t, std::vector<Pose2>> named_;
 };
 
 }  // namespace
