@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "voxlist/geometry/cloud.h"
@@ -19,9 +20,10 @@ Cloud read_cloud_file(const std::filesystem::path& path);
 /// Writes a scan, with its origins where it has them, as binary PLY, atomically. Throws FileError.
 void write_ply(const std::filesystem::path& path, const Cloud& cloud);
 
-/// Writes coloured points (as many colours as points) as binary PLY, atomically. Throws FileError.
+/// Writes coloured points (as many colours as points) as binary PLY, atomically, with a comment of
+/// one line in its header where there is one. Throws FileError.
 void write_ply(const std::filesystem::path& path, const std::vector<Eigen::Vector3f>& points,
-               const std::vector<io::Rgb>& colours);
+               const std::vector<io::Rgb>& colours, const std::string& comment = {});
 
 /// Colours from each point's height between the 1st and 99th percentile of all heights (viridis).
 std::vector<io::Rgb> colours_by_height(const std::vector<Eigen::Vector3f>& points);

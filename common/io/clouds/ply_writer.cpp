@@ -19,11 +19,12 @@ constexpr std::string_view kOriginProperties =
 constexpr std::string_view kColourProperties =
     "property uchar red\nproperty uchar green\nproperty uchar blue\n";
 
-std::string header(std::size_t points, std::string_view more_properties) {
+std::string header(std::size_t points, std::string_view more_properties,
+                   const std::string& comment = {}) {
   return fmt::format(
-      "ply\nformat binary_little_endian 1.0\nelement vertex {}\n"
+      "ply\nformat binary_little_endian 1.0\n{}element vertex {}\n"
       "property float x\nproperty float y\nproperty float z\n{}end_header\n",
-      points, more_properties);
+      comment.empty() ? comment : "comment " + comment + '\n', points, more_properties);
 }
 
 template <typename T>
@@ -46,11 +47,11 @@ void write_ply(const std::filesystem::path& path, const Cloud& cloud) {
 }
 
 void write_ply(const std::filesystem::path& path, const std::vector<Eigen::Vector3f>& points,
-               const std::vector<io::Rgb>& colours) {
+               const std::vector<io::Rgb>& colours, const std::string& comment) {
   if (points.size() != colours.size()) {
     throw std::invalid_argument("write_ply: as many colours as points are needed");
   }
-  std::string bytes = header(points.size(), kColourProperties);
+  std::string bytes = header(points.size(), kColourProperties, comment);
   for (std::size_t i = 0; i < points.size(); ++i) {
     append(bytes, points[i]);
     append(bytes, colours[i]);

@@ -37,13 +37,16 @@ StampedPose3 parse_line(std::string_view line) {
   return stamped;
 }
 
+std::string seconds(std::int64_t utime_us) {
+  const std::lldiv_t time = std::lldiv(std::abs(utime_us), 1'000'000);
+  return fmt::format("{}{}.{:06}", utime_us < 0 ? "-" : "", time.quot, time.rem);
+}
+
 std::string format_line(const StampedPose3& stamped) {
   const auto& p = stamped.pose.translation();
   const Eigen::Quaterniond q(stamped.pose.linear());
-  const std::lldiv_t time = std::lldiv(std::abs(stamped.utime_us), 1'000'000);
-  return fmt::format("{}{}.{:06} {:.9f} {:.9f} {:.9f} {:.9f} {:.9f} {:.9f} {:.9f}\n",
-                     stamped.utime_us < 0 ? "-" : "", time.quot, time.rem, p.x(), p.y(), p.z(),
-                     q.x(), q.y(), q.z(), q.w());
+  return fmt::format("{} {:.9f} {:.9f} {:.9f} {:.9f} {:.9f} {:.9f} {:.9f}\n",
+                     seconds(stamped.utime_us), p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w());
 }
 
 }  // namespace
@@ -78,6 +81,22 @@ void write_tum(const std::filesystem::path& path, const std::vector<StampedPose3
   std::string bytes = "# t_s x_m y_m z_m qx qy qz qw\n";
   for (const StampedPose3& stamped : trajectory) {
     bytes += format_line(stamped);
+  }
+  write_file_atomically(path, bytes);
+}
+
+void write_covariances(const std::filesystem::path& path,
+                       const std::vector<StampedPose3>& trajectory,
+                       const std::vector<Eigen::Matrix3d>& covariances) {
+  std::string bytes =
+      "# t_s xx xy xa yy ya aa: covariance of x, y (m) and yaw a (rad) in the map's axes, beside "
+      "the first keyframe\n";
+  for (std::size_t i = 0; i < trajectory.size(); ++i) {
+    bytes += seconds(trajectory[i].utime_us);
+    for (int row = 0; row < 3; ++row)
+      for (int column = row; column < 3; ++column)
+        bytes += fmt::format(" {:.6e}", covariances[i](row, column));
+    bytes += '\n';
   }
   write_file_atomically(path, bytes);
 }

@@ -20,4 +20,11 @@ std::vector<StampedPose3> trajectory_of(const PoseTable& table);
 /// 9 decimals. Throws FileError.
 void write_tum(const std::filesystem::path& path, const std::vector<StampedPose3>& trajectory);
 
+/// Writes how sure the poses of a trajectory are, atomically: lines "t xx xy xa yy ya aa" of the
+/// covariances of x, y (m) and yaw (a, rad), as the first line says. As many as poses. Throws
+/// FileError.
+void write_covariances(const std::filesystem::path& path,
+                       const std::vector<StampedPose3>& trajectory,
+                       const std::vector<Eigen::Matrix3d>& covariances);
+
 }  // namespace voxlist::io

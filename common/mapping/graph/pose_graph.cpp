@@ -22,14 +22,6 @@ constexpr double kConverged = 1e-7;
 // What holds a pose that no edge holds, once each step: 1 km, as a standard deviation.
 constexpr double kHold = 1e-6;
 
-using Triplets = std::vector<Eigen::Triplet<double>>;
-
-// The normal equations of all poses but the first.
-struct Normal {
-  Eigen::SparseMatrix<double> information;
-  Eigen::VectorXd gradient;
-};
-
 // How an edge's miss changes with the pose that it comes from, and with the one that it goes to.
 struct Slopes {
   Eigen::Matrix3d from = Eigen::Matrix3d::Identity(), to = Eigen::Matrix3d::Identity();
@@ -46,65 +38,13 @@ Slopes slopes_of(const Pose2& from, const Pose2& to) {
   return slopes;
 }
 
-// Only the lower half is filled.
-class NormalSums {
- public:
-  explicit NormalSums(std::size_t poses)
-      : size_(3 * (static_cast<Eigen::Index>(poses) - 1)), gradient_(Eigen::VectorXd::Zero(size_)) {
-    for (Eigen::Index i = 0; i < size_; ++i) triplets_.emplace_back(i, i, kHold);
-  }
-
-  void add(const PoseEdge& edge, const std::vector<Pose2>& poses, double weight) {
-    const Pose2 &from = poses[edge.from], &to = poses[edge.to];
-    const Slopes slopes = slopes_of(from, to);
-    const Eigen::Matrix3d information =
-        weight * edge.T_from_to.covariance.llt().solve(Eigen::Matrix3d::Identity());
-    const Eigen::Vector3d pull = information * miss(edge, from, to);
-    add_pull(edge.from, slopes.from.transpose() * pull);
-    add_pull(edge.to, slopes.to.transpose() * pull);
-    add_block(edge.from, edge.from, slopes.from.transpose() * information * slopes.from);
-    add_block(edge.to, edge.to, slopes.to.transpose() * information * slopes.to);
-    if (edge.from > edge.to)
-      add_block(edge.from, edge.to, slopes.from.transpose() * information * slopes.to);
-    else
-      add_block(edge.to, edge.from, slopes.to.transpose() * information * slopes.from);
-  }
-
-  Normal normal() const {
-    Normal normal{Eigen::SparseMatrix<double>(size_, size_), gradient_};
-    normal.information.setFromTriplets(triplets_.begin(), triplets_.end());
-    return normal;
-  }
-
- private:
-  static Eigen::Index first_of(std::size_t pose) {
-    return 3 * (static_cast<Eigen::Index>(pose) - 1);
-  }
-
-  void add_pull(std::size_t pose, const Eigen::Vector3d& pull) {
-    if (pose > 0) gradient_.segment<3>(first_of(pose)) += pull;
-  }
-
-  void add_block(std::size_t row, std::size_t column, const Eigen::Matrix3d& block) {
-    if (row == 0 || column == 0) return;
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j)
-        if (row != column || i >= j)
-          triplets_.emplace_back(first_of(row) + i, first_of(column) + j, block(i, j));
-  }
-
-  Eigen::Index size_;
-  Eigen::VectorXd gradient_;
-  Triplets triplets_;
-};
-
-Normal normal_of(const std::vector<Pose2>& poses, std::span<const PoseEdge> trusted,
-                 std::span<const PoseEdge> doubted, Kernel kernel) {
-  NormalSums sums(poses.size());
-  for (const PoseEdge& edge : trusted) sums.add(edge, poses, 1.0);
-  for (const PoseEdge& edge : doubted)
-    sums.add(edge, poses, weight(kernel, distance2(edge, poses)));
-  return sums.normal();
+void add(const PoseEdge& edge, const std::vector<Pose2>& poses, double weight,
+         NormalEquations<3>& equations) {
+  const Pose2 &from = poses[edge.from], &to = poses[edge.to];
+  const Slopes slopes = slopes_of(from, to);
+  const Eigen::Matrix3d information =
+      weight * edge.T_from_to.covariance.llt().solve(Eigen::Matrix3d::Identity());
+  equations.add(edge.from, slopes.from, edge.to, slopes.to, information, miss(edge, from, to));
 }
 
 void move(const Eigen::VectorXd& step, std::vector<Pose2>& poses) {
@@ -132,16 +72,32 @@ double weight(Kernel kernel, double distance2) {
   return 1.0;
 }
 
+NormalEquations<3> equations_of(const std::vector<Pose2>& poses, std::span<const PoseEdge> trusted,
+                                std::span<const PoseEdge> doubted, Kernel kernel) {
+  NormalEquations<3> equations(poses.size(), kHold);
+  for (const PoseEdge& edge : trusted) add(edge, poses, 1.0, equations);
+  for (const PoseEdge& edge : doubted)
+    add(edge, poses, weight(kernel, distance2(edge, poses)), equations);
+  return equations;
+}
+
+double chi2(const std::vector<Pose2>& poses, std::span<const PoseEdge> edges) {
+  double sum = 0.0;
+  for (const PoseEdge& edge : edges) sum += distance2(edge, poses);
+  return sum;
+}
+
 std::vector<Pose2> solve(std::vector<Pose2> poses, std::span<const PoseEdge> trusted,
                          std::span<const PoseEdge> doubted, Kernel kernel) {
   if (poses.size() < 2) return poses;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors;
   for (int i = 0; i < kMostSteps; ++i) {
-    const Normal normal = normal_of(poses, trusted, doubted, kernel);
-    if (i == 0) factors.analyzePattern(normal.information);
-    factors.factorize(normal.information);
+    const NormalEquations<3> equations = equations_of(poses, trusted, doubted, kernel);
+    const Eigen::SparseMatrix<double> information = equations.information();
+    if (i == 0) factors.analyzePattern(information);
+    factors.factorize(information);
     VOXLIST_CHECK(factors.info() == Eigen::Success, "edges need covariances that are definite");
-    const Eigen::VectorXd step = -factors.solve(normal.gradient);
+    const Eigen::VectorXd step = -factors.solve(equations.gradient());
     move(step, poses);
     if (step.cwiseAbs().maxCoeff() < kConverged) break;
   }

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "voxlist/mapping/graph/normal_equations.h"
 #include "voxlist/mapping/graph/pose_edge.h"
 
 namespace voxlist::mapping {
@@ -19,6 +20,15 @@ enum class Kernel {
 
 /// The share of its pull that a kernel leaves to an edge at that distance (distance2), 0..1.
 double weight(Kernel kernel, double distance2);
+
+/// What edges say of small changes (m, m, rad; in the map's axes) of the poses but the first, where
+/// the poses stand. Trusted edges count in full, doubted ones as the kernel says.
+NormalEquations<3> equations_of(const std::vector<Pose2>& poses, std::span<const PoseEdge> trusted,
+                                std::span<const PoseEdge> doubted, Kernel kernel);
+
+/// The squares of all that the poses miss the edges by, in units of the edges' standard deviations:
+/// some 3 (edges - poses + 1) where edges err as they say.
+double chi2(const std::vector<Pose2>& poses, std::span<const PoseEdge> edges);
 
 /// The poses that fit best what the edges say (least squares, Gauss-Newton), from a start. The
 /// first pose stays where it is, and so does one that no edge holds. Trusted edges count in full,

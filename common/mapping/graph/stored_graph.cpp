@@ -7,16 +7,20 @@
 #include <iterator>
 #include <utility>
 
+#include "voxlist/geometry/elementary.h"
 #include "voxlist/geometry/tilt.h"
 #include "voxlist/io/files/atomic_file.h"
 #include "voxlist/io/files/file.h"
+#include "voxlist/mapping/graph/pose_graph.h"
 #include "voxlist/mapping/text/checked_text.h"
 #include "voxlist/mapping/text/words.h"
 
 namespace voxlist::mapping {
 namespace {
 
-constexpr std::string_view kTitle = "# voxlist graph 1";
+constexpr std::string_view kTitle = "# voxlist graph 2";
+// Its edges had their information in the axes of `from`, which no other program takes it to be in.
+constexpr std::string_view kFirstTitle = "# voxlist graph 1";
 
 using Out = std::back_insert_iterator<std::string>;
 
@@ -34,10 +38,19 @@ void write(const StoredGraph::Keyframe& keyframe, std::size_t number, Out out) {
   fmt::format_to(out, "\n");
 }
 
+// The information about a miss in the axes of `to`, where the edge has it: so g2o means it.
+Eigen::Matrix3d turned(const Eigen::Matrix3d& information, double yaw_rad) {
+  const auto [sine, cosine] = elementary::sine_cosine(yaw_rad);
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+  turn.topLeftCorner<2, 2>() << cosine, -sine, sine, cosine;
+  return turn.transpose() * information * turn;
+}
+
 void write(const PoseEdge& edge, Out out) {
   fmt::format_to(out, "EDGE_SE2 {} {}", edge.from, edge.to);
   write(edge.T_from_to.pose, out);
-  const Eigen::Matrix3d information = edge.T_from_to.covariance.inverse();
+  const Eigen::Matrix3d information =
+      turned(edge.T_from_to.covariance.inverse(), edge.T_from_to.pose.yaw_rad);
   for (int row = 0; row < 3; ++row)
     for (int column = row; column < 3; ++column)
       fmt::format_to(out, " {}", information(row, column));
@@ -63,13 +76,21 @@ StoredGraph::Keyframe read_keyframe(Words& words) {
   return keyframe;
 }
 
-PoseEdge read_edge(Words& words) {
+PoseEdge read_edge(Words& words, bool is_first_format) {
   PoseEdge edge;
   edge.from = words.number<std::size_t>();
   edge.to = words.number<std::size_t>();
   edge.T_from_to.pose = words.pose();
-  edge.T_from_to.covariance = symmetric(words).inverse();
+  const double yaw_rad = is_first_format ? 0.0 : -edge.T_from_to.pose.yaw_rad;
+  edge.T_from_to.covariance = turned(symmetric(words), yaw_rad).inverse();
   return edge;
+}
+
+double chi2_of(const StoredGraph& graph) {
+  std::vector<Pose2> poses;
+  for (const StoredGraph::Keyframe& keyframe : graph.keyframes)
+    poses.push_back(keyframe.T_map_keyframe);
+  return chi2(poses, graph.edges);
 }
 
 bool holds_together(const StoredGraph& graph) {
@@ -85,6 +106,7 @@ std::string to_g2o(const StoredGraph& graph) {
   std::string text(kTitle);
   const Out out(text);
   fmt::format_to(out, "\n# map {} moves {}\n", graph.map_id, graph.moves);
+  fmt::format_to(out, "# chi2 {}\n", chi2_of(graph));
   for (std::size_t i = 0; i < graph.keyframes.size(); ++i) write(graph.keyframes[i], i, out);
   if (!graph.keyframes.empty()) text += "FIX 0\n";
   for (const PoseEdge& edge : graph.edges) write(edge, out);
@@ -96,13 +118,16 @@ std::optional<StoredGraph> parse_g2o(std::string_view text) {
   if (!body) return std::nullopt;
   Words words(*body);
   StoredGraph graph;
-  if (!words.is(kTitle) || !words.is("# map")) return std::nullopt;
+  const bool is_first_format = words.is(kFirstTitle);
+  if ((!is_first_format && !words.is(kTitle)) || !words.is("# map")) return std::nullopt;
   graph.map_id = words.number<std::int64_t>();
   words.is("moves");
   graph.moves = words.number<std::int64_t>();
+  if (words.is("# chi2")) words.number<double>();
   while (words.good() && words.is("VERTEX_SE2")) graph.keyframes.push_back(read_keyframe(words));
   words.is("FIX 0");
-  while (words.good() && words.is("EDGE_SE2")) graph.edges.push_back(read_edge(words));
+  while (words.good() && words.is("EDGE_SE2"))
+    graph.edges.push_back(read_edge(words, is_first_format));
   return words.good() && holds_together(graph) ? std::optional(std::move(graph)) : std::nullopt;
 }
 

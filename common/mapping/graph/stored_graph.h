@@ -31,11 +31,13 @@ struct StoredGraph {
   std::int64_t moves = 0;
   /// Keyframes in the order of their file, which may have more: those appended since.
   std::vector<Keyframe> keyframes;
-  /// What holds them: by the drive, and by loops.
+  /// What holds them: by the drive, which is one edge less than keyframes, then by loops.
   std::vector<PoseEdge> edges;
 };
 
-/// The graph as a g2o file (VERTEX_SE2, EDGE_SE2); what g2o has no word for is in comments.
+/// The graph as a g2o file (VERTEX_SE2, EDGE_SE2: the information is of a miss in the axes of the
+/// pose that the edge goes to). What g2o has no word for is in comments, and so is chi2, the sum
+/// over all edges where the poses stand.
 std::string to_g2o(const StoredGraph& graph);
 
 /// Nothing when it is torn, or no graph of Voxlist.

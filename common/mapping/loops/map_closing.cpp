@@ -74,11 +74,11 @@ MapClosing close_map(const std::vector<Pose2>& poses, const DriveOdometry& odome
   const ClosedDrive closed =
       close_loops(tree, drive, find_loops(tree, read, config, memory), poses.front());
   closing.refused = closed.refused.size();
+  closing.edges = drive;
+  for (const Loop& loop : closed.loops) closing.edges.push_back(loop.edge);
   if (closed.loops.empty() || !is_open(poses, drive, closed.loops)) return closing;
   closing.loops = closed.loops.size();
   closing.moves = true;
-  closing.edges = drive;
-  for (const Loop& loop : closed.loops) closing.edges.push_back(loop.edge);
   std::transform(closed.poses.begin(), closed.poses.end(), closing.poses.begin(), rounded);
   return closing;
 }

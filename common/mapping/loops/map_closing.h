@@ -19,7 +19,8 @@ struct MapClosing {
   /// Those that agree with each other and were not believed: they would move the past by more than
   /// it may be off.
   std::size_t refused = 0;
-  /// What holds the keyframes where loops are closed: by the drive, then by loops.
+  /// What holds the keyframes, where it was looked for: by the drive, then by loops that may be
+  /// believed.
   std::vector<PoseEdge> edges;
   /// Whether keyframes are to be moved. A drive that was tracked on its own old ground is closed.
   bool moves = false;

@@ -1,11 +1,13 @@
 #include "voxlist/mapping/loops/session_closing.h"
 
 #include <algorithm>
+#include <mutex>
 #include <numeric>
 #include <span>
 
 #include "voxlist/geometry/tilt.h"
 #include "voxlist/mapping/graph/pose_graph.h"
+#include "voxlist/mapping/loops/neighbours.h"
 
 namespace voxlist::mapping {
 namespace {
@@ -30,6 +32,29 @@ std::vector<PoseEdge> in_file(std::vector<PoseEdge> edges, const Order& order) {
     edge.to = order[edge.to];
   }
   return edges;
+}
+
+// Keyframes and looks in the order of the drive.
+struct Drive {
+  Order order;
+  std::vector<Pose2> poses;
+  DriveOdometry odometry;
+  ReadCloud read;
+  KnownLook known;
+};
+
+Drive drive_of(const MapKeyframes& keyframes, const ReadCloud& read, const KnownLook& known) {
+  Drive drive{order_of_drive(keyframes), {}, {}, {}, {}};
+  for (const std::size_t i : drive.order) {
+    drive.poses.push_back(keyframes[i].T_map_keyframe);
+    drive.odometry.push_back(keyframes[i].T_odom_keyframe);
+  }
+  drive.read = [&read, order = drive.order](std::size_t i) { return read(order[i]); };
+  if (known)
+    drive.known = [&known, order = drive.order](std::size_t from, std::size_t to) {
+      return known(order[from], order[to]);
+    };
+  return drive;
 }
 
 void move(const MapKeyframes& keyframes, std::vector<Pose2> poses, SessionClosing& closing) {
@@ -60,29 +85,29 @@ Order order_of_drive(const MapKeyframes& keyframes) {
 SessionClosing close_sessions(const MapKeyframes& keyframes, const ReadCloud& read,
                               const matching::MatcherConfig& config, const KnownLook& known,
                               LookMemory* memory) {
-  const Order order = order_of_drive(keyframes);
-  std::vector<Pose2> poses;
-  DriveOdometry odometry;
-  for (const std::size_t i : order) {
-    poses.push_back(keyframes[i].T_map_keyframe);
-    odometry.push_back(keyframes[i].T_odom_keyframe);
-  }
-  KnownLook known_in_drive;
-  if (known)
-    known_in_drive = [&](std::size_t from, std::size_t to) {
-      return known(order[from], order[to]);
-    };
-  const MapClosing closed = close_map(
-      poses, odometry, [&](std::size_t i) { return read(order[i]); }, config, known_in_drive,
-      memory);
+  const Drive drive = drive_of(keyframes, read, known);
+  const MapClosing closed =
+      close_map(drive.poses, drive.odometry, drive.read, config, drive.known, memory);
   SessionClosing closing;
   closing.loops = closed.loops;
   closing.refused = closed.refused;
-  closing.edges = in_file(closed.edges, order);
+  closing.edges = in_file(closed.edges, drive.order);
   for (const auto& keyframe : keyframes) closing.poses.push_back(keyframe.T_map_keyframe);
   if (closed.moves)
-    move(keyframes, in_file(closed.poses, order, keyframes.front().T_map_keyframe), closing);
+    move(keyframes, in_file(closed.poses, drive.order, keyframes.front().T_map_keyframe), closing);
   return closing;
+}
+
+std::vector<PoseEdge> drive_edges(const MapKeyframes& keyframes, const ReadCloud& read,
+                                  const matching::MatcherConfig& config, const KnownLook& known) {
+  std::mutex mutex;
+  const ReadCloud one_by_one = [&](std::size_t keyframe) {
+    const std::lock_guard lock(mutex);
+    return read(keyframe);
+  };
+  const Drive drive = drive_of(keyframes, one_by_one, known);
+  return in_file(join_neighbours(drive.poses, drive.odometry, drive.read, config, drive.known),
+                 drive.order);
 }
 
 drawing::ClosedLoops drawn(const MapKeyframes& before, const SessionClosing& closing) {

@@ -15,7 +15,7 @@ using MapKeyframes = std::vector<StoredGraph::Keyframe>;
 struct SessionClosing {
   /// T_map_keyframe of each; as they were where nothing is to be closed.
   std::vector<Pose2> poses;
-  /// What holds them: by the drive, then by loops.
+  /// What holds them, where it was looked for: by the drive, then by loops.
   std::vector<PoseEdge> edges;
   std::size_t loops = 0, refused = 0;
   /// How far the keyframe is moved that is moved farthest (m), and that is turned farthest (rad).
@@ -32,6 +32,12 @@ std::vector<std::size_t> order_of_drive(const MapKeyframes& keyframes);
 SessionClosing close_sessions(const MapKeyframes& keyframes, const ReadCloud& read,
                               const matching::MatcherConfig& config, const KnownLook& known = {},
                               LookMemory* memory = nullptr);
+
+/// What the drive's own way says of the keyframes: what holds a map that never came back, a match
+/// for each keyframe and its neighbour.
+std::vector<PoseEdge> drive_edges(const MapKeyframes& keyframes, const ReadCloud& read,
+                                  const matching::MatcherConfig& config,
+                                  const KnownLook& known = {});
 
 /// What a picture of the map shows of that: nothing where nothing moves.
 drawing::ClosedLoops drawn(const MapKeyframes& before, const SessionClosing& closing);

@@ -101,6 +101,7 @@ void write(const ExtendOptions& options, const DeskSettings& settings, const Occ
   const VoxelMap& voxels = made.occupied;
   MapFiles files(options.folder);
   files.write_views(made, trajectory, closed);
+  files.write_covariances(trajectory, map.poses().size());
   tell(options, voxels, figures, map, console);
   files.write_octomap(settings.octomap, settings.localiser.threads, !options.making.no_octomap,
                       console);

@@ -133,11 +133,13 @@ int map(const MapOptions& options, Console& console) {
     files.write_views(run.builder().map(), run.trajectory(), run.closed_loops());
   });
   files.write_keyframes(spool, run.keyframes(), voxels);
+  files.write_graph(run.graph(), voxels);
   files.give_up_edits(console);
   tell(options, run, figures, console);
   if (figures.interrupted) console.warn("interrupted: the map ends there");
   files.write_octomap(settings.octomap, threads, !options.making.no_octomap, console);
   views.get();
+  files.write_covariances(run.trajectory(), run.keyframes().size());
   Summary summary = summary_of(figures);
   describe(voxels, run.builder().poses().size(), summary);
   files.write_summary(std::move(summary));
@@ -175,7 +177,8 @@ void add_map(CLI::App& program, Command& chosen) {
   const auto options = std::make_shared<MapOptions>();
   add_options(*command, *options);
   command->footer(
-      "Writes trajectory.tum, map.ply, map.png, map.bt, keyframes.voxlist, summary.json.\n"
+      "Writes trajectory.tum, trajectory_covariance.txt, graph.g2o, map.ply, map.png, map.bt,\n"
+      "keyframes.voxlist, summary.json.\n"
       "--into MAPDIR: the same as voxlist extend MAPDIR INPUT.\n"
       "Exit code 3: less than half of the scans were placed; the last line says what would help.\n"
       "Examples:\n"

@@ -44,6 +44,7 @@ int rebuild(const RebuildOptions& options, Console& console) {
   const VoxelMap& voxels = map.builder.map().occupied;
   MapFiles files(options.folder);
   files.write_views(map.builder.map(), trajectory);
+  files.write_covariances(trajectory, map.poses.size());
   tell(options, map, trajectory.size(), console);
   files.write_octomap(settings.octomap, settings.localiser.threads, !options.making.no_octomap,
                       console);

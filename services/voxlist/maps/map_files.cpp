@@ -8,6 +8,7 @@
 #include "voxlist/io/files/file.h"
 #include "voxlist/mapping/edits/stored_edits.h"
 #include "voxlist/mapping/graph/stored_graph.h"
+#include "voxlist/mapping/keyframe_reader.h"
 #include "voxlist/mapping/map_store.h"
 #include "voxlist/mapping/map_views.h"
 
@@ -40,6 +41,20 @@ void MapFiles::write_keyframes(mapping::KeyframeSpool& spool,
                                const VoxelMap& map) const {
   spool.write(folder_ / mapping::kKeyframeFile, map_id(map), keyframes);
   mapping::remove_graph(folder_);
+}
+
+void MapFiles::write_graph(mapping::StoredGraph graph, const VoxelMap& map) const {
+  if (graph.keyframes.empty()) return;
+  graph.map_id = map_id(map);
+  mapping::write_graph(folder_, graph);
+}
+
+void MapFiles::write_covariances(const std::vector<StampedPose3>& trajectory,
+                                 std::size_t keyframes) const {
+  const mapping::KeyframeReader reader(folder_ / mapping::kKeyframeFile);
+  const auto found = mapping::find_graph(folder_, reader.map_id());
+  if (found.graph && found.graph->keyframes.size() == keyframes)
+    mapping::write_covariances(folder_, *found.graph, trajectory);
 }
 
 void MapFiles::give_up_edits(Console& console) const {

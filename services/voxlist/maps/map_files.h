@@ -8,6 +8,7 @@
 #include "services/voxlist/output/fresh_file.h"
 #include "voxlist/drawing/map_picture.h"
 #include "voxlist/geometry/cloud.h"
+#include "voxlist/mapping/graph/stored_graph.h"
 #include "voxlist/mapping/keyframe_spool.h"
 #include "voxlist/planning/octomap.h"
 
@@ -24,6 +25,13 @@ class MapFiles {
   void write_keyframes(mapping::KeyframeSpool& spool,
                        const std::vector<mapping::SpooledKeyframe>& keyframes,
                        const VoxelMap& map) const;
+
+  /// Writes what holds the keyframes that were written. Throws FileError.
+  void write_graph(mapping::StoredGraph graph, const VoxelMap& map) const;
+
+  /// Writes how sure the poses of the trajectory are that was written, where the folder's graph
+  /// knows all of its so many keyframes, and what holds them. Throws FileError.
+  void write_covariances(const std::vector<StampedPose3>& trajectory, std::size_t keyframes) const;
 
   /// Keeps edits of the map before aside, and tells where. Throws FileError.
   void give_up_edits(Console& console) const;

@@ -56,6 +56,9 @@ class MapRun {
   /// The loops that finish() closed.
   const drawing::ClosedLoops& closed_loops() const { return closing_.drawn; }
 
+  /// Where the map's keyframes stand and what holds them; none where finish() closed no loops.
+  const mapping::StoredGraph& graph() const { return closing_.graph; }
+
   /// What became of the scans, and no more than that.
   RunFigures figures() const;
 

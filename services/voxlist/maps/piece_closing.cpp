@@ -27,10 +27,15 @@ PieceClosing close_piece(mapping::Piece& piece, mapping::KeyframeSpool& spool,
     return at == looks.end() ? nullptr : &at->second;
   };
   const mapping::MapKeyframes before = keyframes_of(piece);
-  const mapping::SessionClosing closed = mapping::close_sessions(
-      before, [&](std::size_t i) { return level_cloud(spool, keyframes[i]); }, config, known);
+  const auto read = [&](std::size_t i) { return level_cloud(spool, keyframes[i]); };
+  mapping::SessionClosing closed = mapping::close_sessions(before, read, config, known);
+  if (closed.edges.empty()) closed.edges = mapping::drive_edges(before, read, config, known);
   if (closed.moves) piece.move_keyframes(closed.poses);
-  return {closed.loops, closed.refused, closed.moved_m, mapping::drawn(before, closed)};
+  return {closed.loops,
+          closed.refused,
+          closed.moved_m,
+          mapping::drawn(before, closed),
+          {0, 0, keyframes_of(piece), closed.edges}};
 }
 
 }  // namespace voxlist::desk

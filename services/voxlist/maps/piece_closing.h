@@ -13,6 +13,8 @@ struct PieceClosing {
   /// How far the keyframe was moved that was moved farthest (m).
   double moved_m = 0.0;
   drawing::ClosedLoops drawn;
+  /// Where the keyframes stand now, and what holds them; of no map yet.
+  mapping::StoredGraph graph;
 };
 
 /// A keyframe's cloud as a level robot has it: poses are searched for in the plane.

@@ -11,6 +11,7 @@
 #include "services/voxlist/maps/stored_map.h"
 #include "tests/bench/drives/twin_drive.h"
 #include "tests/desk/scan_set.h"
+#include "tests/mapping/graph/g2o_reader.h"
 #include "tests/simulation/sphere_scan.h"
 #include "tests/temporary_folder.h"
 #include "voxlist/io/poses/trajectory.h"
@@ -127,10 +128,16 @@ TEST_F(MeetingTest, MergeWritesAMapOfBoth) {
   const test::DeskRun run = merge(first, second);
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("30 and 30 keyframes"));
-  for (const std::string file : {"map.bt", "map.ply", "map.png", "summary.json"})
+  for (const std::string file :
+       {"map.bt", "map.ply", "map.png", "summary.json", "trajectory_covariance.txt"})
     EXPECT_TRUE(std::filesystem::exists(both_ + "/" + file)) << file;
   const auto trajectory = io::read_tum(both_ + "/trajectory.tum");
   ASSERT_EQ(trajectory.size(), 60u);
+  const std::string graph = test::read_text(both_ + "/graph.g2o");
+  const test::G2oFile read(graph);
+  EXPECT_EQ(read.vertices.size(), 60u);
+  EXPECT_GT(read.edges.size(), 60u);
+  EXPECT_NEAR(read.chi2(), test::chi2_told(graph), 1e-6 * read.chi2());
   EXPECT_EQ(merge(first, second).exit_code, 1) << "replaced a map";
   EXPECT_EQ(voxels_about(erased_in_first, both_), 0);
   EXPECT_EQ(voxels_about(T_second_first.inverse() * erased_in_second, both_), 0);

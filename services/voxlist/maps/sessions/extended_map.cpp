@@ -48,8 +48,9 @@ mapping::Keyframe ExtendedMap::read(std::size_t keyframe) {
 }
 
 mapping::SessionClosing ExtendedMap::close(const matching::MatcherConfig& config) {
-  mapping::SessionClosing closing = mapping::close_sessions(
-      keyframes_, [&](std::size_t i) { return mapping::level_cloud(read(i)); }, config);
+  const auto level = [&](std::size_t i) { return mapping::level_cloud(read(i)); };
+  mapping::SessionClosing closing = mapping::close_sessions(keyframes_, level, config);
+  if (closing.edges.empty()) closing.edges = mapping::drive_edges(keyframes_, level, config);
   for (std::size_t i = 0; closing.moves && i < poses_.size(); ++i) {
     keyframes_[i].T_map_keyframe = closing.poses[i];
     mapping::stand_at(closing.poses[i], poses_[i].pose);
