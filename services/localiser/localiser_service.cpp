@@ -1,11 +1,8 @@
 #include "services/localiser/localiser_service.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <cmath>
 #include <utility>
 #include <voxlist/localisation_t.hpp>
 #include <voxlist/map_request_t.hpp>
@@ -18,7 +15,6 @@
 #include "voxlist/bus/convert.h"
 #include "voxlist/bus/health.h"
 #include "voxlist/bus/maps/map_convert.h"
-#include "voxlist/geometry/angle.h"
 #include "voxlist/system/memory.h"
 
 namespace voxlist::services {
@@ -76,6 +72,7 @@ LocaliserService::LocaliserService(bus::Bus& bus, bus::Health& health,
                                .remedy = "is the robot base running?",
                                .is_needed = false,
                                .disorder_us = OdometryBuffer::kMaxAge_us}),
+      findings_(health, odometry_check_, config.localiser.tilt),
       pose_output_(bus),
       origin_doubt_(config.localiser) {
   bus_.subscribe(bus::kOdometry, [this](const pose_t& message) { take_odometry(message); });
@@ -201,7 +198,7 @@ LocaliserService::Answer LocaliserService::localise(Waiting waiting) {
   const auto start = Clock::now();
   const std::int64_t utime_us = waiting.cloud.utime_us;
   Answer answer{.waiting = std::move(waiting), .T_odom_base = odometry_.at(utime_us), .found = {}};
-  compare_times(utime_us, answer.T_odom_base.has_value());
+  if (!answer.T_odom_base) findings_.tell_missing_odometry(utime_us, odometry_.newest_utime_us());
   if (const auto& held = mapper_.held()) {
     answer.map_id = held->map_id;
     answer.map_version = held->version;
@@ -290,11 +287,7 @@ void LocaliserService::publish(const Answer& answer) {
   message.map_id = answer.map_id;
   message.map_version = answer.map_version;
   message.elapsed_us = static_cast<std::int32_t>(answer.elapsed_us);
-  if (found.odometry_error) tell(*found.odometry_error);
-  if (found.odometry_bias) tell(*found.odometry_bias);
-  if (found.floor) tell(*found.floor);
-  health_.count(std::string("state/") + name(found.state));
-  tell(found.state);
+  findings_.tell(found, mapper_.held().has_value());
   if (jump_) std::ranges::copy(std::array{jump_->x_m, jump_->y_m, jump_->yaw_rad}, message.jump);
   bus_.publish(bus::kLocalisation, message);
   if (jump_) pose_output_.jump(*std::exchange(jump_, std::nullopt));
@@ -331,58 +324,6 @@ matching::Localisation LocaliserService::locate_without_map(
   result = localiser_.localise(cloud, T_odom_base, odometry_.tilt_at(cloud.utime_us));
   if (!origin_ && result.tracking()) origin_ = cloud;
   return result;
-}
-
-void LocaliserService::compare_times(std::int64_t cloud_utime_us, bool has_odometry) {
-  const auto newest_us = odometry_.newest_utime_us();
-  if (has_odometry || !newest_us) return;
-  const double older_s = static_cast<double>(cloud_utime_us - *newest_us) * 1e-6;
-  health_.count("ODOMETRY/not_of_this_time");
-  odometry_check_.note("not_of_this_time", bus::Health::State::kWarning,
-                       fmt::format("ODOMETRY is {:.1f} s {} than CLOUD and is not used: do their "
-                                   "clocks agree?",
-                                   std::abs(older_s), older_s > 0.0 ? "older" : "newer"));
-}
-
-void LocaliserService::tell(const matching::OdometryError& error) {
-  if (!error.disagrees()) return;
-  health_.count("ODOMETRY/disagrees");
-  odometry_check_.note(
-      "disagrees", bus::Health::State::kWarning,
-      fmt::format(
-          "ODOMETRY disagrees with the scans, which are believed: over {:.2f} m in {:.1f} s "
-          "it is off by {:.2f} m and {:.1f} deg. Do wheels slip?",
-          error.way_m, error.seconds, error.distance_m, error.turn_rad / kRadPerDeg));
-}
-
-void LocaliserService::tell(const matching::OdometryBias& bias) {
-  constexpr double kPercent = 100.0;
-  health_.gauge("odometry_scale_percent", bias.scale * kPercent);
-  health_.gauge("odometry_scale_sigma_percent", bias.scale_sigma * kPercent);
-  health_.gauge("odometry_heading_deg", bias.heading_rad / kRadPerDeg);
-  health_.gauge("odometry_heading_sigma_deg", bias.heading_sigma_rad / kRadPerDeg);
-}
-
-// A sentence that changes with every cloud could not be read.
-void LocaliserService::tell(const matching::Floor& floor) {
-  constexpr double kNews_rad = 1.0 * kRadPerDeg, kNews_m = 0.1;
-  health_.gauge("floor_tilt_deg", floor.lean_rad() / kRadPerDeg);
-  health_.gauge("floor_height_m", floor.height_m());
-  const bool is_news = !told_floor_ ||
-                       std::abs(floor.lean_rad() - told_floor_->lean_rad()) > kNews_rad ||
-                       std::abs(floor.height_m() - told_floor_->height_m()) > kNews_m;
-  if (!is_news) return;
-  told_floor_ = floor;
-  const bool must_be_level = config_.localiser.tilt == TiltUse::kPlanar;
-  health_.raise("floor", bus::Health::State::kWarning, must_be_level ? what_is_off(floor) : "");
-}
-
-void LocaliserService::tell(matching::LocalisationState state) {
-  using State = bus::Health::State;
-  const bool has_map = mapper_.held().has_value();
-  const bool is_sure = state == matching::LocalisationState::kTracking;
-  health_.raise("map", State::kWarning, has_map ? "" : "waits for a map: is the mapper running?");
-  health_.raise("pose", State::kWarning, is_sure || !has_map ? "" : name(state));
 }
 
 }  // namespace voxlist::services

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "services/localiser/findings_in_health.h"
 #include "services/localiser/origin_doubt.h"
 #include "services/localiser/pose_output.h"
 #include "voxlist/geometry/odometry_buffer.h"
@@ -100,11 +101,6 @@ class LocaliserService {
   matching::Localisation locate(const Cloud& cloud, const std::optional<Pose2>& T_odom_base);
   matching::Localisation locate_without_map(const Cloud& cloud,
                                             const std::optional<Pose2>& T_odom_base);
-  void tell(matching::LocalisationState state);
-  void tell(const matching::OdometryError& error);
-  void tell(const matching::OdometryBias& bias);
-  void tell(const matching::Floor& floor);
-  void compare_times(std::int64_t cloud_utime_us, bool has_odometry);
 
   bus::Bus& bus_;
   bus::Health& health_;
@@ -118,6 +114,7 @@ class LocaliserService {
   std::optional<Cloud> origin_;         // the cloud that defined the origin of an empty map
   service::CloudInput cloud_input_;
   service::ChannelCheck odometry_check_;
+  FindingsInHealth findings_;
   OdometryBuffer odometry_;
   std::deque<Waiting> waiting_;                 // oldest first
   std::optional<matching::ScanMoment> placed_;  // the last cloud that was, until the map is left
@@ -129,7 +126,6 @@ class LocaliserService {
   // What does not fit a map of one cloud: one waits for the next cloud, two for a new map.
   std::vector<Answer> undecided_;
   std::int64_t undecided_since_us_ = 0;
-  std::optional<matching::Floor> told_floor_;  // in HEALTH
 };
 
 }  // namespace voxlist::services

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <voxlist/health_t.hpp>
@@ -15,11 +14,10 @@
 #include <voxlist/pointcloud_t.hpp>
 #include <voxlist/pose_t.hpp>
 
+#include "services/mapper/told.h"
 #include "voxlist/bus/bus.h"
 #include "voxlist/bus/convert.h"
 #include "voxlist/bus/health.h"
-#include "voxlist/bus/maps/map_faults.h"
-#include "voxlist/geometry/elementary.h"
 #include "voxlist/io/files/file.h"
 #include "voxlist/mapping/map_views.h"
 #include "voxlist/system/state_folder.h"
@@ -48,10 +46,6 @@ constexpr std::int64_t kLookPeriod_us = kSecond_us / 2;
 // Silence after which another mapper is gone; its HEALTH comes once a second.
 constexpr std::int64_t kRivalGone_us = 3 * kSecond_us;
 
-// Farthest from the origin that a robot maps (m): what it sees from there is within the map's
-// reach.
-constexpr double kDrive_m = bus::kMapReach_m - 1000.0;
-
 // Clouds that were apart and get their place after each cloud.
 constexpr int kApartAtOnce = 4;
 
@@ -59,38 +53,6 @@ constexpr int kApartAtOnce = 4;
 std::int64_t new_map_id() {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   return std::chrono::duration_cast<std::chrono::microseconds>(now).count();
-}
-
-// A pose as it is told: its planar part as it is, for thresholds of the way, and the rest.
-struct ToldPose {
-  Pose2 planar;
-  Tilt tilt;
-};
-
-std::optional<ToldPose> pose_of(const localisation_t& message) {
-  if (message.state != localisation_t::STATE_TRACKING || message.modes.empty()) return std::nullopt;
-  const double* pose = message.modes.front().pose;
-  const double* tilt = message.modes.front().tilt;
-  const bool sane = elementary::hypot(elementary::hypot(pose[0], pose[1]), tilt[0]) < kDrive_m &&
-                    std::isfinite(pose[2]) && std::isfinite(tilt[1]) && std::isfinite(tilt[2]);
-  if (!sane) return std::nullopt;
-  return ToldPose{{pose[0], pose[1], wrap_angle(pose[2])},
-                  {tilt[0], wrap_angle(tilt[1]), wrap_angle(tilt[2])}};
-}
-
-// What the localiser told of a cloud.
-matching::Localisation told(const localisation_t& message) {
-  matching::Localisation found;
-  found.utime_us = message.utime;
-  found.state = static_cast<matching::LocalisationState>(message.state);
-  found.confidence = message.modes.empty() ? 0.0 : message.confidence;
-  found.searched_whole_map = message.searched_whole_map;
-  for (const pose_mode_t& told : message.modes) {
-    matching::PoseMode& mode = found.modes.emplace_back();
-    mode.T_map_base = {told.pose[0], told.pose[1], wrap_angle(told.pose[2])};
-    for (int i = 0; i < 9; ++i) mode.covariance(i / 3, i % 3) = told.covariance[i];
-  }
-  return found;
 }
 
 mapping::MapBuilderConfig with_free_space(mapping::MapBuilderConfig config) {

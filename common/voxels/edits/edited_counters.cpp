@@ -45,8 +45,10 @@ void EditedCounters::update(const CounterMap& map, std::span<const std::uint32_t
     edit(map.block_position(number), map.block(number), map.occupied(number));
 }
 
-void EditedCounters::edit(const Voxel& at, CounterBlock block, const BlockBits& occupied) {
+void EditedCounters::edit(const Voxel& at, const CounterBlock& unedited,
+                          const BlockBits& occupied) {
   const BlockEdits::Cells cells = edits_.cells_of(at);
+  CounterBlock block = unedited;
   set(both(in_keys(cells.of(EditKind::kErase)), occupied), kUnknown, block);
   set(in_keys(cells.of(EditKind::kKeepFree)), kSurelyFree, block);
   set(in_keys(cells.of(EditKind::kKeepBlocked)), surely_occupied(edited_.rule()), block);

@@ -23,7 +23,7 @@ class EditedCounters {
   const CounterMap& map() const { return edited_; }
 
  private:
-  void edit(const Voxel& at, CounterBlock block, const BlockBits& occupied);
+  void edit(const Voxel& at, const CounterBlock& unedited, const BlockBits& occupied);
 
   BlockEdits edits_;
   CounterMap edited_;
