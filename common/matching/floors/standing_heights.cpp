@@ -20,6 +20,8 @@ constexpr std::size_t kMost = 16;
 // 4 x 4 is enough.
 constexpr double kAbout_m = 3.0, kFar_m = 30.0;
 constexpr std::int32_t kOneOf = 4;
+// Its cells in each layer of a block.
+constexpr std::uint64_t kTheseOfLayer = 0x00000011'00000011;
 // A robot that has moved no farther (m) has the same floors about it.
 constexpr double kSamePlace_m = 0.5;
 
@@ -68,6 +70,11 @@ bool is_occupied(const VoxelMap& map, const Voxel& cell, std::int32_t ratio) {
   return false;
 }
 
+VoxelBlock thinned(VoxelBlock block) {
+  for (std::uint64_t& layer : block) layer &= kTheseOfLayer;
+  return block;
+}
+
 // One cell of 4 x 4 about a place.
 std::map<std::int32_t, Level> levels_about(const OccupancyMap& map, const Eigen::Vector3d& at) {
   const auto ratio = ratio_of(map);
@@ -76,7 +83,6 @@ std::map<std::int32_t, Level> levels_about(const OccupancyMap& map, const Eigen:
               high = block_of(voxel_at(at + reach, map.passed.resolution_m()));
   std::map<std::int32_t, Level> levels;
   const auto add = [&](const Voxel& above) {
-    if (above.x % kOneOf != 0 || above.y % kOneOf != 0) return;
     const Voxel cell{above.x, above.y, above.z - kFreeAbove[0]};
     if (!is_free_above(map, cell) || !is_occupied(map.occupied, cell, ratio)) return;
     Level& level = levels[cell.z];
@@ -87,7 +93,7 @@ std::map<std::int32_t, Level> levels_about(const OccupancyMap& map, const Eigen:
     for (std::int32_t y = low.y; y <= high.y; ++y)
       for (std::int32_t z = low.z; z <= high.z; ++z)
         if (const VoxelBlock* block = map.passed.find_block({x, y, z}))
-          VoxelMap::visit_block({x, y, z}, *block, add);
+          VoxelMap::visit_block({x, y, z}, thinned(*block), add);
   return levels;
 }
 

@@ -72,15 +72,18 @@ class Squares {
  public:
   Value* at(const Eigen::Vector3f& p) {
     const int x = number(p.x()), y = number(p.y());
-    if (x < 0 || y < 0 || x >= 2 * kSquares || y >= 2 * kSquares) return nullptr;
+    if (x < 0 || y < 0) return nullptr;
     return &values_[static_cast<std::size_t>(2 * kSquares * y + x)];
   }
   const auto& values() const { return values_; }
 
  private:
+  // std::floor without a call; -1 beyond the ground, and for what is no number.
   static int number(float value_m) {
-    const double squares = std::floor(static_cast<double>(value_m) / kSquare_m) + kSquares;
-    return static_cast<int>(std::clamp(squares, -1.0, 2.0 * kSquares));
+    const double squares = static_cast<double>(value_m) / kSquare_m;
+    if (!(squares >= -kSquares && squares < kSquares)) return -1;
+    const auto whole = static_cast<int>(squares);
+    return whole - (squares < whole ? 1 : 0) + kSquares;
   }
 
   std::array<Value, std::size_t{4} * kSquares * kSquares> values_{};
@@ -119,13 +122,32 @@ std::optional<Plane> plane_through(const Eigen::Vector3d& a, const Eigen::Vector
   return plane.is_steep() ? std::nullopt : std::optional(plane);
 }
 
-// Squares on a plane less those below it, where there is no floor.
-int agreement(const Plane& plane, const std::vector<Eigen::Vector3d>& lowest, std::size_t step) {
+// Points that planes are tried on, coordinate by coordinate.
+struct TriedPoints {
+  std::vector<double> x, y, z;
+
+  TriedPoints(const std::vector<Eigen::Vector3d>& points, std::size_t step) {
+    for (std::size_t i = 0; i < points.size(); i += step) {
+      x.push_back(points[i].x());
+      y.push_back(points[i].y());
+      z.push_back(points[i].z());
+    }
+  }
+  std::size_t size() const { return x.size(); }
+};
+
+// Squares on a plane less those below it, where there is no floor; no more than `most` where the
+// squares that are left cannot make it more.
+int agreement(const Plane& plane, const TriedPoints& points, int most) {
+  constexpr std::size_t kAtOnce = 32;
   int agree = 0;
-  for (std::size_t i = 0; i < lowest.size(); i += step) {
-    const double above_m = plane.above(lowest[i]);
-    agree += std::abs(above_m) < kFirst_m;
-    agree -= above_m < -2.0 * kFirst_m;
+  for (std::size_t i = 0; i < points.size();) {
+    if (agree + static_cast<int>(points.size() - i) <= most) return agree;
+    for (const std::size_t end = std::min(points.size(), i + kAtOnce); i < end; ++i) {
+      const double above_m = plane.above({points.x[i], points.y[i], points.z[i]});
+      agree += std::abs(above_m) < kFirst_m;
+      agree -= above_m < -2.0 * kFirst_m;
+    }
   }
   return agree;
 }
@@ -135,12 +157,12 @@ Plane most_agreed(const std::vector<Eigen::Vector3d>& lowest) {
   int most = 0;
   Lots lots;
   const auto any = [&] { return lowest[lots.below(lowest.size())]; };
-  const std::size_t step = 1 + lowest.size() / kTriedOn;
+  const TriedPoints tried(lowest, 1 + lowest.size() / kTriedOn);
   for (int i = 0; i < kTrials; ++i) {
     const Eigen::Vector3d a = any(), b = any(), c = any();
     const auto plane = plane_through(a, b, c);
     if (!plane) continue;
-    const int agree = agreement(*plane, lowest, step);
+    const int agree = agreement(*plane, tried, most);
     if (agree > most) most = agree, best = *plane;
   }
   return best;
