@@ -3,13 +3,14 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cctype>
 #include <map>
 #include <optional>
 #include <stdexcept>
 #include <string_view>
 
+#include "voxlist/bus/channel_pattern.h"
 #include "voxlist/bus/multicast/address.h"
+#include "voxlist/bus/multicast/network_check.h"
 #include "voxlist/bus/transport.h"
 
 namespace voxlist::bus {
@@ -26,12 +27,8 @@ constexpr std::size_t kMaxPrefix = 39;
 
 constexpr std::string_view kFileScheme = "file://";
 
-bool is_plain(const std::string& channel) {
-  const auto allowed = [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-' || c == '/';
-  };
-  return std::ranges::all_of(channel, allowed);
-}
+// In counters, where one subscription takes all channels: their names come from the network.
+constexpr const char* kAll = "all";
 
 std::string log_path(const std::string& url) {
   return url.substr(kFileScheme.size(), url.find('?') - kFileScheme.size());
@@ -58,6 +55,8 @@ struct Bus::Impl {
   // Each by its name on the wire. A map keeps its entries in place: handlers may subscribe while
   // one of them runs.
   std::map<std::string, Subscription> subscriptions;
+  std::vector<std::string> patterns;  // of what goes to take_all
+  std::function<void(const std::string&, Bytes)> take_all;
   Counters counters;
   Counters losses;
   std::string first_handler_error;
@@ -100,9 +99,20 @@ struct Bus::Impl {
     to.waiting = Waiting{{message.bytes.begin(), message.bytes.end()}, message.arrival_utime_us};
   }
 
+  void receive_other(const RawMessage& message) {
+    if (!matches_any(patterns, message.channel)) return;
+    const std::string channel = message.channel.substr(prefix.size());
+    deliver({kAll,
+             nullptr,
+             [&](Bytes bytes) { return take_all(channel, bytes), Fault::kNone; },
+             {},
+             {}},
+            message.bytes, message.arrival_utime_us);
+  }
+
   void receive(const RawMessage& message) {
     const auto found = subscriptions.find(message.channel);
-    if (found == subscriptions.end()) return;
+    if (found == subscriptions.end()) return receive_other(message);
     Subscription& to = found->second;
     count(to.channel, "received");
     if (to.delivery == Delivery::kEvery) {
@@ -125,7 +135,7 @@ struct Bus::Impl {
 bool is_recording(const std::string& url) { return url.starts_with(kFileScheme); }
 
 std::string why_invalid(const BusOptions& options) {
-  if (!is_plain(options.prefix) || options.prefix.size() > kMaxPrefix)
+  if (!is_plain_channel(options.prefix) || options.prefix.size() > kMaxPrefix)
     return fmt::format("channel prefix '{}' may only hold letters, digits, _ - and /, {} at most",
                        options.prefix, kMaxPrefix);
   if (is_recording(options.url) || options.url.starts_with("memq://")) return {};
@@ -135,6 +145,12 @@ std::string why_invalid(const BusOptions& options) {
       "239.255.255.255), memq:// or "
       "file://PATH",
       options.url);
+}
+
+std::vector<std::string> network_findings(const BusOptions& options) {
+  const auto address = multicast_address(options.url);
+  if (!address) return {};
+  return network_findings(*address, options.receive_buffer_bytes);
 }
 
 Bus::Bus(const BusOptions& options) : impl_(std::make_unique<Impl>()) {
@@ -161,18 +177,38 @@ void Bus::count_unsent(const std::string& channel, const char* reason) {
 
 void Bus::subscribe_encoded(const std::string& channel, Check check, Take take, Delivery delivery) {
   const std::string wire_name = impl_->prefix + channel;
-  if (!is_plain(channel) || wire_name.size() > kMaxChannelName) {
+  if (!is_plain_channel(channel) || wire_name.size() > kMaxChannelName) {
     throw std::runtime_error(
         fmt::format("bus: channel name {} is longer than 63 or not plain", wire_name));
   }
-  if (impl_->subscriptions.contains(wire_name)) {
+  if (impl_->subscriptions.contains(wire_name) || matches_any(impl_->patterns, wire_name)) {
     throw std::logic_error("bus: subscribed twice to " + wire_name);
   }
-  impl_->transport->listen(wire_name,
+  impl_->transport->listen({wire_name},
                            delivery == Delivery::kEvery ? kEveryCapacity : kLatestCapacity);
   impl_->subscriptions.emplace(wire_name,
                                Subscription{channel, check, std::move(take), delivery, {}});
 }
+
+void Bus::subscribe_all(const std::vector<std::string>& patterns,
+                        std::function<void(const std::string&, Bytes)> handler) {
+  std::vector<std::string> wire_patterns;
+  for (const std::string& pattern : patterns) {
+    if (!is_channel_pattern(pattern))
+      throw std::runtime_error("bus: " + pattern + " is no pattern of channels");
+    wire_patterns.push_back(impl_->prefix + pattern);
+  }
+  const auto is_taken = [&](const auto& by_name) {
+    return matches_any(wire_patterns, by_name.first);
+  };
+  if (impl_->take_all || std::ranges::any_of(impl_->subscriptions, is_taken))
+    throw std::logic_error("bus: subscribed twice to what a pattern matches");
+  impl_->patterns = wire_patterns;
+  impl_->take_all = std::move(handler);
+  impl_->transport->listen(wire_patterns, kEveryCapacity);
+}
+
+int Bus::file_descriptor() const { return impl_->transport->file_descriptor(); }
 
 bool Bus::handle(std::chrono::milliseconds timeout, int wake_fd) {
   using Received = Transport::Received;

@@ -35,6 +35,10 @@ struct BusOptions {
 /// sense. Empty when one can.
 std::string why_invalid(const BusOptions& options);
 
+/// What of this machine makes messages between machines get lost, a sentence each with what to do;
+/// nothing where the url's messages stay on this machine.
+std::vector<std::string> network_findings(const BusOptions& options);
+
 /// Whether a url names a recording, which ends, and not a network.
 bool is_recording(const std::string& url);
 
@@ -98,11 +102,22 @@ class Bus {
     subscribe_encoded(channel.name, &check_wire<M>, take, delivery);
   }
 
+  /// Calls `handler`, from within handle(), with every message of the channels that one of the
+  /// patterns matches (channel_pattern.h), by the channel's name without prefix; the bytes are not
+  /// checked. For whoever passes messages on, or knows no names beforehand. Once a Bus, and with
+  /// patterns that match no channel which is subscribed to by name (else throws std::logic_error).
+  void subscribe_all(const std::vector<std::string>& patterns,
+                     std::function<void(const std::string&, Bytes)> handler);
+
   /// Waits up to `timeout` for a message, then handles all that wait (256 at most). A signal ends
   /// the wait early, and so does `wake_fd` when it can be read: a device, for the service to look
   /// at. False: nothing will come any more, because the log has ended or the connection
   /// broke.
   bool handle(std::chrono::milliseconds timeout, int wake_fd = -1);
+
+  /// Can be read when a message waits, for whoever waits for other things as well; -1: there is no
+  /// such thing.
+  int file_descriptor() const;
 
   /// What happened so far, by channel.
   const Counters& counters() const;

@@ -10,7 +10,9 @@
 #include <stdexcept>
 
 #include "voxlist/bus/bus.h"
+#include "voxlist/bus/channel_pattern.h"
 #include "voxlist/bus/multicast/multicast_sender.h"
+#include "voxlist/bus/multicast/network_check.h"
 #include "voxlist/bus/transport.h"
 
 namespace voxlist::bus {
@@ -48,14 +50,17 @@ class LcmTransport : public Transport {
     if (fd_ < 0) fail_to_open(url);
     if (const auto address = multicast_address(url)) {
       port_ = address->port;
+      is_local_ = address->ttl == 0;
       sender_.emplace(*address);
     }
   }
 
-  void listen(const std::string& channel, int capacity) override {
-    // A pattern to lcm: Bus lets no character through that would mean more than itself.
-    lcm_subscription_t* subscription = lcm_subscribe(lcm_.get(), channel.c_str(), &hand_over, this);
-    if (subscription == nullptr) throw std::runtime_error("bus: cannot subscribe to " + channel);
+  void listen(const std::vector<std::string>& patterns, int capacity) override {
+    // One subscription: what two patterns match comes once.
+    const std::string expression = regular_expression(patterns);
+    lcm_subscription_t* subscription =
+        lcm_subscribe(lcm_.get(), expression.c_str(), &hand_over, this);
+    if (subscription == nullptr) throw std::runtime_error("bus: cannot subscribe to " + expression);
     lcm_subscription_set_queue_capacity(subscription, capacity);
   }
 
@@ -81,12 +86,15 @@ class LcmTransport : public Transport {
 
   int batch() const override { return 256; }
 
+  int file_descriptor() const override { return fd_; }
+
   Traffic traffic() const override {
     if (!sender_) return {};
     return {.queued_bytes = sender_->queued_bytes(),
             .failed_messages = sender_->failed(),
             .superseded_messages = sender_->superseded(),
-            .dropped_packets = dropped_by_own_sockets(port_)};
+            .dropped_packets = dropped_by_own_sockets(port_),
+            .incomplete_packets = is_local_ ? 0 : incomplete_packets() - incomplete_before_};
   }
 
  private:
@@ -99,6 +107,8 @@ class LcmTransport : public Transport {
   std::unique_ptr<lcm_t, LcmDeleter> lcm_;
   std::optional<MulticastSender> sender_;  // of udpm:// alone, like its port
   int port_ = 0;
+  bool is_local_ = true;
+  const std::int64_t incomplete_before_ = incomplete_packets();
   int fd_ = -1;
   int failures_ = 0;
   const Receiver* receiver_ = nullptr;

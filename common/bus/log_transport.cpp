@@ -1,5 +1,4 @@
-#include <set>
-
+#include "voxlist/bus/channel_pattern.h"
 #include "voxlist/bus/event_log.h"
 #include "voxlist/bus/transport.h"
 
@@ -10,13 +9,15 @@ class LogTransport : public Transport {
  public:
   explicit LogTransport(const std::string& path) : log_(path) {}
 
-  void listen(const std::string& channel, int) override { channels_.insert(channel); }
+  void listen(const std::vector<std::string>& patterns, int) override {
+    patterns_.insert(patterns_.end(), patterns.begin(), patterns.end());
+  }
 
   bool send(const std::string&, Bytes, Delivery) override { return false; }
 
   Received receive(std::chrono::milliseconds, int, const Receiver& receiver) override {
     while (const std::optional<Event> event = log_.next()) {
-      if (!channels_.contains(event->channel)) continue;
+      if (!matches_any(patterns_, event->channel)) continue;
       receiver({event->channel, event->bytes, event->utime_us});
       return Received::kMessage;
     }
@@ -29,7 +30,7 @@ class LogTransport : public Transport {
 
  private:
   EventLogReader log_;
-  std::set<std::string> channels_;
+  std::vector<std::string> patterns_;
 };
 
 }  // namespace

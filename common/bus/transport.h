@@ -30,9 +30,9 @@ class Transport {
 
   virtual ~Transport() = default;
 
-  /// Wants messages of this channel; up to `capacity` wait for receive(), then the newest are
-  /// dropped.
-  virtual void listen(const std::string& channel, int capacity) = 0;
+  /// Wants messages of the channels that one of the patterns matches (channel_pattern.h); up to
+  /// `capacity` wait for receive(), then the newest are dropped.
+  virtual void listen(const std::vector<std::string>& patterns, int capacity) = 0;
 
   /// False: it could not be sent.
   virtual bool send(const std::string& channel, Bytes bytes, Delivery delivery) = 0;
@@ -44,6 +44,9 @@ class Transport {
 
   /// How many messages one Bus::handle() may take.
   virtual int batch() const = 0;
+
+  /// Can be read when a message waits; -1: there is no such thing.
+  virtual int file_descriptor() const { return -1; }
 
   /// See Bus::traffic().
   virtual Traffic traffic() const { return {}; }

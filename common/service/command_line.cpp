@@ -29,7 +29,7 @@ std::vector<std::string> complaints_of(const ServiceInfo& info, const std::strin
   std::vector<std::string> complaints;
   if (const std::string wrong = bus::why_invalid(bus); !wrong.empty())
     complaints.push_back(place + "[bus] " + wrong);
-  if (const std::string wrong = check(); !wrong.empty())
+  if (const std::string wrong = check(bus); !wrong.empty())
     complaints.push_back(place + "[" + info.name + "] " + wrong);
   return complaints;
 }

@@ -28,6 +28,11 @@ void ResourceReport::take(const bus::Traffic& traffic, std::int64_t memory_bytes
        "one burst, as LCM's own sender does? Pace it, or allow more: sysctl -w "
        "net.core.rmem_max=8000000",
        health);
+  tell(incomplete_, traffic.incomplete_packets, "packets_incomplete",
+       "packets of other machines came without all their fragments, their messages are lost: the "
+       "network loses some, or sysctl -w net.ipv4.ipfrag_high_thresh=16000000 "
+       "net.ipv4.ipfrag_time=2",
+       health);
   tell(failed_, traffic.failed_messages, "messages_not_sent",
        "large messages were refused by the system: is the network's route still there?", health);
   tell(superseded_, traffic.superseded_messages, "messages_left_for_newer",

@@ -10,8 +10,8 @@
 namespace voxlist::service {
 
 /// Tells HEALTH what a service holds (gauges memory_MB, send_queue_MB), and what the network lost:
-/// packets that found no room when they came, messages that the system refused to send, and those
-/// that were left for newer ones.
+/// packets that found no room when they came or came without all their fragments, messages that the
+/// system refused to send, and those that were left for newer ones.
 class ResourceReport {
  public:
   /// Whether a second has passed since take().
@@ -33,6 +33,7 @@ class ResourceReport {
 
   std::optional<std::int64_t> now_us_;
   Loss dropped_;
+  Loss incomplete_;
   Loss failed_;
   Loss superseded_;
 };

@@ -113,6 +113,13 @@ FileLock take_lock(const ServiceInfo& info, const bus::BusOptions& options) {
   return std::move(*lock);
 }
 
+// What the network lacks that is between machines. It holds as long as the service runs.
+void tell_findings(const bus::BusOptions& options, bus::Health& health) {
+  int number = 0;
+  for (const std::string& finding : bus::network_findings(options))
+    health.raise(fmt::format("network{}", ++number), bus::Health::State::kWarning, finding);
+}
+
 // What a service starts, such as lcm-logger, is on the same bus.
 void tell_children(const bus::BusOptions& options) {
   setenv("LCM_DEFAULT_URL", options.url.c_str(), 1);
@@ -135,6 +142,7 @@ int run_service(int argc, char** argv, const ServiceInfo& info,
   const FileLock lock = take_lock(info, options);
   bus::Bus bus(options);
   bus::Health health(info.name);
+  tell_findings(options, health);
   const auto service = make(bus, health);
   spdlog::info("started on {}", options.url);
   const bool wanted = run_until_stopped(bus, health, *service) || bus::is_recording(options.url);

@@ -12,6 +12,7 @@
 namespace voxlist::bus {
 class Bus;
 class Health;
+struct BusOptions;
 }  // namespace voxlist::bus
 
 namespace voxlist::service {
@@ -43,8 +44,9 @@ class RunningService {
 
 using MakeService = std::function<std::unique_ptr<RunningService>(bus::Bus&, bus::Health&)>;
 
-/// Says why settings of the service do not fit together; empty when they do. It opens nothing.
-using CheckSettings = std::function<std::string()>;
+/// Says why settings of the service do not fit together, or not to its bus; empty when they do. It
+/// opens nothing.
+using CheckSettings = std::function<std::string(const bus::BusOptions&)>;
 
 /// Reads the command line and the settings, checks them, takes the service's lock, connects, makes
 /// the service, and runs it until SIGTERM or SIGINT, or until a recording that is its bus has
@@ -54,10 +56,12 @@ int run_service(int argc, char** argv, const ServiceInfo& info,
                 const std::vector<config::Section>& settings, const CheckSettings& check,
                 const MakeService& make);
 
-/// What Service::check(config) throws as std::invalid_argument; empty when it throws nothing, or
-/// there is no such member.
+/// What Service::check(config), or check(config, bus options), throws as std::invalid_argument;
+/// empty when it throws nothing, or there is no such member.
 template <class Service, class Config>
-std::string why_invalid_for([[maybe_unused]] const Config& config) try {
+std::string why_invalid_for([[maybe_unused]] const Config& config,
+                            [[maybe_unused]] const bus::BusOptions& bus) try {
+  if constexpr (requires { Service::check(config, bus); }) Service::check(config, bus);
   if constexpr (requires { Service::check(config); }) Service::check(config);
   return {};
 } catch (const std::invalid_argument& error) {
@@ -97,7 +101,7 @@ int run_service(int argc, char** argv, const ServiceInfo& info) {
   Config config;
   return run_service(
       argc, argv, info, sections_of(info.name, config),
-      [&] { return why_invalid_for<Service>(config); },
+      [&](const bus::BusOptions& bus) { return why_invalid_for<Service>(config, bus); },
       [&](bus::Bus& bus, bus::Health& health) {
         return std::make_unique<Adapter>(bus, health, config);
       });
