@@ -5,10 +5,13 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 program=$(basename "$0")
 
 # The services that scripts/services runs, in the order of services/README.md. The first three are for
-# robots that have the mirror scanner, the next one for those that have another 3D laser.
+# robots that have the mirror scanner, the next one for those that have another 3D laser, the last one for robots of a
+# fleet.
 scanner_services=(laser_driver mirror_monitor cloud_assembler)
 adapter_services=(cloud_adapter)
-services=("${scanner_services[@]}" "${adapter_services[@]}" localiser mapper octomap_export grid_export obstacle_detector viewer)
+fleet_services=(relay)
+services=("${scanner_services[@]}" "${adapter_services[@]}" localiser mapper octomap_export grid_export obstacle_detector viewer
+  "${fleet_services[@]}")
 
 say() { echo "$program: $*" >&2; }
 

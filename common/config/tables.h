@@ -24,6 +24,7 @@ inline const std::vector<std::string> kTables = {
     "grid_export",
     "obstacle_detector",
     "viewer",
+    "relay",
 };
 
 }  // namespace voxlist::config

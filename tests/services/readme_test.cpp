@@ -19,6 +19,7 @@
 #include "services/mirror_monitor/mirror_monitor_service.h"
 #include "services/obstacle_detector/obstacle_detector_service.h"
 #include "services/octomap_export/octomap_export_service.h"
+#include "services/relay/relay_service.h"
 #include "services/scan_source/scan_source_service.h"
 #include "services/simulator/simulator_service.h"
 #include "services/viewer/viewer_service.h"
@@ -63,6 +64,7 @@ const std::map<std::string, std::string> kServiceTables = {
     {"grid_export", grid_tables()},
     {"obstacle_detector", table_of<planning::ObstacleConfig>()},
     {"viewer", table_of<ViewerServiceConfig>()},
+    {"relay", table_of<fleet::RelayConfig>()},
 };
 
 std::set<std::string> service_folders() {

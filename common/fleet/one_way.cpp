@@ -1,0 +1,76 @@
+#include "voxlist/fleet/one_way.h"
+
+#include <algorithm>
+#include <utility>
+#include <voxlist/keyframe_t.hpp>
+#include <voxlist/pointcloud_t.hpp>
+
+#include "voxlist/bus/channel_pattern.h"
+
+namespace voxlist::fleet {
+namespace {
+
+// An encoded message begins with its type's fingerprint, the most significant byte first.
+bool is_of_type(bus::Bytes bytes, std::int64_t fingerprint) {
+  if (bytes.size() < 8) return false;
+  std::uint64_t begin = 0;
+  for (const std::uint8_t byte : bytes.first(8)) begin = begin << 8U | byte;
+  return begin == static_cast<std::uint64_t>(fingerprint);
+}
+
+bool is_raw_cloud(bus::Bytes bytes) {
+  return is_of_type(bytes, pointcloud_t::getHash()) || is_of_type(bytes, keyframe_t::getHash());
+}
+
+}  // namespace
+
+OneWay::OneWay(const std::vector<RelayChannel>& rows, Direction direction, Send send)
+    : send_(std::move(send)) {
+  std::ranges::copy_if(rows, std::back_inserter(rows_),
+                       [&](const RelayChannel& row) { return row.direction == direction; });
+}
+
+void OneWay::take(const std::string& robot, const std::string& name, const std::string& channel,
+                  bus::Bytes bytes, std::int64_t now_us) {
+  Stream* stream = stream_of(robot, name, channel);
+  if (stream == nullptr) return;
+  if (!stream->clouds && is_raw_cloud(bytes)) {
+    ++counters_[stream->row + "/raw_cloud"];
+    return;
+  }
+  if (!stream->waiting && stream->throttle.pass(bytes.size(), now_us))
+    return pass(channel, *stream, bytes);
+  if (stream->waiting) ++counters_[stream->row + "/held_back"];
+  stream->waiting.emplace(bytes.begin(), bytes.end());
+}
+
+void OneWay::tick(std::int64_t now_us) {
+  for (auto& [channel, stream] : streams_) {
+    if (!stream.waiting || !stream.throttle.pass(stream.waiting->size(), now_us)) continue;
+    const std::vector<std::uint8_t> bytes = std::move(*stream.waiting);
+    stream.waiting.reset();
+    pass(channel, stream, bytes);
+  }
+}
+
+OneWay::Stream* OneWay::stream_of(const std::string& robot, const std::string& name,
+                                  const std::string& channel) {
+  if (const auto known = streams_.find(channel); known != streams_.end()) return &known->second;
+  const auto row = std::ranges::find_if(rows_, [&](const RelayChannel& r) {
+    return bus::matches(r.name, name) && (robot.empty() || bus::matches(r.robot, robot));
+  });
+  if (row == rows_.end()) return nullptr;
+  if (streams_.size() >= kMostChannels) {
+    ++counters_["too_many_channels"];
+    return nullptr;
+  }
+  const Throttle throttle(row->max_hz, row->max_kBps * 1e3);
+  return &streams_.emplace(channel, Stream{row->name, row->clouds, throttle, {}}).first->second;
+}
+
+void OneWay::pass(const std::string& channel, const Stream& stream, bus::Bytes bytes) {
+  ++counters_[stream.row + "/passed"];
+  send_(channel, bytes);
+}
+
+}  // namespace voxlist::fleet

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "voxlist/bus/counters.h"
+#include "voxlist/bus/wire.h"
+#include "voxlist/fleet/relay_config.h"
+#include "voxlist/fleet/throttle.h"
+
+namespace voxlist::fleet {
+
+/// One direction of a relay: which messages are passed on, and when. The first row that matches a
+/// channel is the channel's. What comes too fast waits; the newest of each channel takes the place
+/// of the one that waits, so that the last word always arrives.
+///
+/// counters(), by the row's name: ROW/passed, ROW/held_back (left for a newer one), ROW/raw_cloud
+/// (of a row that lets none pass), and too_many_channels.
+class OneWay {
+ public:
+  /// Most channels that are told apart: their names come from the network.
+  static constexpr std::size_t kMostChannels = 1000;
+
+  using Send = std::function<void(const std::string& channel, bus::Bytes)>;
+
+  /// Takes the rows of this direction, in their order. `send` is called from take() and tick().
+  OneWay(const std::vector<RelayChannel>& rows, Direction direction, Send send);
+
+  /// What came on channel `name`, which goes on as `channel`. `robot`: whose it is; the rows' other
+  /// robots do not match. Of the robot's own bus it is empty, and any row matches.
+  void take(const std::string& robot, const std::string& name, const std::string& channel,
+            bus::Bytes bytes, std::int64_t now_us);
+
+  /// Passes on what may go now.
+  void tick(std::int64_t now_us);
+
+  const bus::Counters& counters() const { return counters_; }
+
+ private:
+  struct Stream {
+    std::string row;
+    bool clouds;
+    Throttle throttle;
+    std::optional<std::vector<std::uint8_t>> waiting;
+  };
+
+  Stream* stream_of(const std::string& robot, const std::string& name, const std::string& channel);
+  void pass(const std::string& channel, const Stream& stream, bus::Bytes bytes);
+
+  std::vector<RelayChannel> rows_;
+  const Send send_;
+  std::map<std::string, Stream> streams_;  // by the channels that they go on as
+  bus::Counters counters_;
+};
+
+}  // namespace voxlist::fleet

@@ -1,0 +1,142 @@
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <set>
+#include <voxlist/health_t.hpp>
+#include <voxlist/pointcloud_t.hpp>
+#include <voxlist/pose_t.hpp>
+
+#include "tests/bus/private_network.h"
+#include "services/relay/relay_service.h"
+#include "voxlist/bus/bus.h"
+#include "voxlist/bus/health.h"
+
+namespace voxlist::services {
+namespace {
+
+using bus::Bus;
+
+bus::BusOptions on_port(int port, const std::string& prefix = "") {
+  return {.url = "udpm://239.255.76.67:" + std::to_string(port) + "?ttl=0", .prefix = prefix};
+}
+
+fleet::RelayConfig relay_config(const std::string& robot) {
+  fleet::RelayConfig config;
+  config.robot = robot;
+  config.url = on_port(7670).url;
+  return config;
+}
+
+pose_t pose_at(std::int64_t utime) {
+  pose_t message{};
+  message.utime = utime;
+  message.orientation[0] = 1.0;
+  return message;
+}
+
+// A robot with a bus of its own, its relay, and somebody who listens to all that the bus has.
+struct Robot {
+  Robot(const std::string& name, int port, const std::string& prefix = "")
+      : own(on_port(port, prefix)),
+        others(on_port(port, prefix)),
+        health("relay"),
+        relay(own, health, relay_config(name)) {
+    others.subscribe_all({"*", "*/*", "*/*/*"}, [this](const std::string& channel, bus::Bytes) {
+      heard.push_back(channel);
+    });
+  }
+
+  void step(std::int64_t now_us) {
+    own.handle(std::chrono::milliseconds(1));
+    relay.tick(now_us);
+    others.handle(std::chrono::milliseconds(0));
+  }
+
+  std::ptrdiff_t times_heard(const std::string& channel) const {
+    return std::count(heard.begin(), heard.end(), channel);
+  }
+
+  std::int64_t counted(const std::string& name) {
+    for (const counter_t& counter : health.last(0).counters)
+      if (counter.name == name) return counter.count;
+    return 0;
+  }
+
+  Bus own, others;
+  bus::Health health;
+  RelayService relay;
+  std::vector<std::string> heard;
+};
+
+// Three robots, all of whose services talk for two seconds of their time.
+TEST(Relay, DISABLED_JoinsThreeRobots) {
+  Robot a("a", 7661), b("b", 7662, "mine/"), c("c", 7663);
+  Bus fleet(on_port(7670));
+  std::multiset<std::string> in_fleet;
+  fleet.subscribe_all({"*", "*/*", "*/*/*"},
+                      [&](const std::string& channel, bus::Bytes) { in_fleet.insert(channel); });
+  constexpr int kSteps = 200;
+  for (int i = 0; i < kSteps; ++i) {
+    for (Robot* robot : {&a, &b, &c}) {
+      if (i < 20) {
+        robot->others.publish(bus::kPose, pose_at(i));
+        robot->others.publish(bus::kCloud, pointcloud_t{});
+        robot->others.publish(bus::Channel<pose_t>{"GRID_low"}, pose_at(i));
+      }
+      robot->step(i * 10'000);
+    }
+    fleet.handle(std::chrono::milliseconds(0));
+  }
+
+  // Each robot's POSE is once in the fleet, at most ten a second and the last word; no cloud is.
+  for (const std::string name : {"a", "b", "c"}) {
+    EXPECT_GE(in_fleet.count(name + "/POSE"), 10U);
+    EXPECT_LE(in_fleet.count(name + "/POSE"), 20U);
+    EXPECT_GE(in_fleet.count(name + "/GRID_low"), 2U);
+    EXPECT_LE(in_fleet.count(name + "/GRID_low"), 3U);
+  }
+  for (const std::string& channel : in_fleet) {
+    EXPECT_EQ(channel.find("CLOUD"), std::string::npos) << channel;
+    EXPECT_EQ(std::count(channel.begin(), channel.end(), '/'), 1) << channel;
+  }
+  // Each hears the others' poses under their names, and no message of its own comes back.
+  EXPECT_EQ(a.times_heard("b/POSE"), static_cast<std::ptrdiff_t>(in_fleet.count("b/POSE")));
+  EXPECT_EQ(b.times_heard("a/POSE"), static_cast<std::ptrdiff_t>(in_fleet.count("a/POSE")));
+  EXPECT_EQ(b.times_heard("c/POSE"), static_cast<std::ptrdiff_t>(in_fleet.count("c/POSE")));
+  EXPECT_EQ(a.times_heard("a/POSE"), 0);
+  EXPECT_EQ(a.times_heard("b/GRID_low"), 0) << "it does not come in by default";
+  EXPECT_EQ(a.times_heard("POSE"), 20) << "its own bus stays as it was";
+  EXPECT_EQ(a.counted("out/POSE/passed") + a.counted("out/POSE/held_back"), 20);
+  EXPECT_EQ(a.counted("namesakes_messages"), 0);
+}
+
+TEST(Relay, DISABLED_TellsOfARobotOfTheSameName) {
+  Robot a("a", 7661), other("a", 7662);
+  for (int i = 0; i < 300; ++i) {
+    if (i < 10) other.others.publish(bus::kPose, pose_at(i));
+    a.step(i * 10'000);
+    other.step(i * 10'000);
+  }
+  EXPECT_GT(a.counted("namesakes_messages"), 0);
+  EXPECT_NE(a.health.message().find("another robot of this name"), std::string::npos);
+  EXPECT_EQ(a.times_heard("a/POSE"), 0);
+}
+
+TEST(Relay, InAPrivateNetwork) {
+  if (!bus::has_private_networks()) GTEST_SKIP() << "no private network namespaces here";
+  EXPECT_EQ(bus::run_in_private_network(bus::kWithMulticast, "Relay.DISABLED_*"), 0);
+}
+
+TEST(Relay, RefusesTheRobotsOwnBusForTheFleets) {
+  fleet::RelayConfig config = relay_config("a");
+  EXPECT_NO_THROW(RelayService::check(config, on_port(7667)));
+  config.url = "udpm://239.1.2.3:7667?ttl=1";
+  EXPECT_THROW(RelayService::check(config, on_port(7667)), std::invalid_argument)
+      << "another group on the same port is no other bus";
+  config.url = on_port(7670).url;
+  config.robot = "";
+  EXPECT_THROW(RelayService::check(config, on_port(7667)), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace voxlist::services
