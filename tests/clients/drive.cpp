@@ -8,7 +8,8 @@
 // Usage: drive check FOLDER: compares a map folder's keyframes with the truth:
 //   sum KEYFRAMES wrong N
 // Wrong: more than 0.3 m or 6 degrees off. The frame of a map is where its first pose was; the
-// frames are kept in drive_frames.txt, for the next drive.
+// frames are kept in drive_frames.txt, for the next drive. The bus is LCM_DEFAULT_URL's, if that is
+// set.
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -50,6 +51,11 @@ simulation::SimulationConfig tour() {
 
 // In poses that mislead (the program beside this one) has made up.
 constexpr double kMadeUp = -77.0;
+
+std::string url_in_use() {
+  const char* url = std::getenv("LCM_DEFAULT_URL");
+  return url != nullptr ? url : bus::BusOptions{}.url;
+}
 
 constexpr const char* kFrames = "drive_frames.txt";
 
@@ -138,7 +144,7 @@ class Drive {
     return known->second;
   }
 
-  bus::Bus bus_{bus::BusOptions{}};
+  bus::Bus bus_{{.url = url_in_use(), .prefix = ""}};
   simulation::SimulatedRun run_{tour()};
   const int first_, end_;
   int cloud_ = 0, tracking_ = 0, wrong_ = 0, unanswered_ = 0, delay_max_ms_ = 0;
