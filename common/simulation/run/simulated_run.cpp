@@ -18,12 +18,41 @@ constexpr double kStanding_s = 60.0;
 std::int64_t to_utime_us(double t_s) { return std::llround(t_s * 1e6); }
 
 Trajectory motion(const Building& building, const SimulationConfig& config) {
-  if (config.stand_in_room < 0) return drive(plan_tour(building, config.tour), config.drive);
+  if (config.stand_in_room < 0)
+    return drive(plan_tour(building, config.tour, config.share), config.drive);
   const auto room = static_cast<std::size_t>(config.stand_in_room);
   if (room >= building.rooms.size())
     throw std::invalid_argument("simulation: no such room to stand in");
   const Eigen::Vector2d centre = building.rooms[room].centre();
   return Trajectory(1.0, {Pose2{centre.x(), centre.y(), 0.0}});
+}
+
+// What a robot keeps from another's middle at least (m): both have a radius of 0.25 m.
+constexpr double kNeverNearer_m = 0.6;
+
+bool meet(const Trajectory& one, const Trajectory& other) {
+  const double end_s = std::max(one.duration_s(), other.duration_s());
+  for (double t_s = 0.0; t_s <= end_s; t_s += 0.1)
+    if (distance_m(one.at(t_s), other.at(t_s)) < kNeverNearer_m) return true;
+  return false;
+}
+
+// The robots that share the building with this one. Each drives its own share of the tour, at the
+// same time.
+std::vector<MovingBody> others(const Building& building, const Trajectory& own,
+                               const SimulationConfig& config) {
+  std::vector<MovingBody> robots;
+  if (config.share.robots > 1 && config.stand_in_room >= 0)
+    throw std::invalid_argument("simulation: several robots drive, none of them stands in a room");
+  for (int robot = 0; robot < config.share.robots; ++robot) {
+    if (robot == config.share.robot) continue;
+    Trajectory way =
+        drive(plan_tour(building, config.tour, {config.share.robots, robot}), config.drive);
+    if (meet(own, way))
+      throw std::invalid_argument("simulation: robots would run into each other in this building");
+    robots.push_back({std::move(way), config.scanner.body});
+  }
+  return robots;
 }
 
 OdometryConfig scaled(OdometryConfig config, double errors) {
@@ -57,8 +86,10 @@ SimulatedRun::SimulatedRun(const SimulationConfig& config, const Building& build
       odometry_(wheel_odometry(truth_, scaled(config.odometry, config.odometry_errors),
                                static_cast<std::uint64_t>(config.seed))),
       duration_s_(duration(truth_, config)),
-      world_(building, walk(building, truth_, duration_s_, config.people,
-                            static_cast<std::uint64_t>(config.seed))),
+      world_(building,
+             walk(building, truth_, duration_s_, config.people,
+                  static_cast<std::uint64_t>(config.seed)),
+             others(building, truth_, config)),
       scanner_(world_, truth_, with_faults(config), static_cast<std::uint64_t>(config.seed)) {}
 
 std::optional<SimulatedEvent> SimulatedRun::next() {

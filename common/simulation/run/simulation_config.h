@@ -28,6 +28,7 @@ struct SimulationConfig {
   BuildingConfig building;
   PeopleConfig people;
   TourConfig tour;
+  TourShare share;
   DriveConfig drive;
   OdometryConfig odometry;
   double odometry_errors = 1.0;
@@ -62,6 +63,9 @@ struct SimulationConfig {
       "not 0: one room, of this seed, for all, as in a hotel; needs an even `rooms`", 0,
       1'000'000'000);
     v("objects", building.objects, "small things on each room's floor, tried for", 0, 100);
+    v("robots", share.robots,
+      "that share the building, each with its own rooms, and see each other", 1, 10);
+    v("robot", share.robot, "which of them this one is, from 0", 0, 9);
     v("people", people.count, "who walk from room to room", 0, 50);
     v("odometry_errors", odometry_errors, "times the wheels' usual errors; 0: they are perfect",
       0.0, 100.0);

@@ -9,10 +9,17 @@
 
 namespace voxlist::simulation {
 
-/// A building, which stands, and people, who walk in it.
+/// Something that drives about: boxes in its own frame, and where that is.
+struct MovingBody {
+  Trajectory way;
+  std::vector<Box> boxes;
+};
+
+/// A building, which stands, and what moves in it: people, who walk, and other robots.
 class World {
  public:
-  explicit World(Building building, std::vector<Trajectory> people = {});
+  explicit World(Building building, std::vector<Trajectory> people = {},
+                 std::vector<MovingBody> robots = {});
 
   /// Distance along the unit vector `direction` to the first thing hit at a time; none when the ray
   /// leaves the world.
@@ -25,6 +32,7 @@ class World {
  private:
   const Building building_;
   const std::vector<Trajectory> people_;
+  const std::vector<MovingBody> robots_;
 };
 
 }  // namespace voxlist::simulation
