@@ -25,6 +25,7 @@ void add_localise_only(CLI::App& program, Command& chosen);
 void add_hint(CLI::App& program, Command& chosen);
 void add_listen(CLI::App& program, Command& chosen);
 void add_evaluate(CLI::App& program, Command& chosen);
+void add_report(CLI::App& program, Command& chosen);
 void add_edit(CLI::App& program, Command& chosen);
 void add_info(CLI::App& program, Command& chosen);
 void add_export(CLI::App& program, Command& chosen);

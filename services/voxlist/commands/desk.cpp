@@ -77,6 +77,9 @@ int run_desk(std::vector<std::string> arguments, Console& console) {
   add_hint(program, chosen);
   add_listen(program, chosen);
   add_evaluate(program, chosen);
+#ifdef VOXLIST_CALIBRATION
+  add_report(program, chosen);
+#endif
   add_edit(program, chosen);
   add_info(program, chosen);
   add_export(program, chosen);

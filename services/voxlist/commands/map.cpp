@@ -135,6 +135,7 @@ int map(const MapOptions& options, Console& console) {
   files.write_keyframes(spool, run.keyframes(), voxels);
   files.write_graph(run.graph(), voxels);
   files.give_up_edits(console);
+  files.write_scan_log(run.scan_log());
   tell(options, run, figures, console);
   if (figures.interrupted) console.warn("interrupted: the map ends there");
   files.write_octomap(settings.octomap, threads, !options.making.no_octomap, console);

@@ -57,6 +57,12 @@ void MapFiles::write_covariances(const std::vector<StampedPose3>& trajectory,
     mapping::write_covariances(folder_, *found.graph, trajectory);
 }
 
+void MapFiles::write_scan_log(const std::vector<ScanRow>& rows) const {
+  if (!rows.empty()) return desk::write_scan_log(folder_, rows);
+  std::error_code ignored;
+  fs::remove(folder_ / kScanLogFile, ignored);
+}
+
 void MapFiles::give_up_edits(Console& console) const {
   if (const auto aside = mapping::give_up_edits(folder_))
     console.warn("the edits of the map before are kept as " + aside->string());

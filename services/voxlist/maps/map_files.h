@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "services/voxlist/maps/scan_log.h"
 #include "services/voxlist/maps/summary.h"
 #include "services/voxlist/output/console.h"
 #include "services/voxlist/output/fresh_file.h"
@@ -32,6 +33,10 @@ class MapFiles {
   /// Writes how sure the poses of the trajectory are that was written, where the folder's graph
   /// knows all of its so many keyframes, and what holds them. Throws FileError.
   void write_covariances(const std::vector<StampedPose3>& trajectory, std::size_t keyframes) const;
+
+  /// Writes what was said of each scan; takes an older file away where none was localised. Throws
+  /// FileError.
+  void write_scan_log(const std::vector<ScanRow>& rows) const;
 
   /// Keeps edits of the map before aside, and tells where. Throws FileError.
   void give_up_edits(Console& console) const;

@@ -1,6 +1,7 @@
 #include "services/voxlist/maps/map_run.h"
 
 #include <algorithm>
+#include <chrono>
 #include <set>
 #include <utility>
 
@@ -70,17 +71,30 @@ MapRun::MapRun(const matching::LocaliserConfig& localiser, const mapping::MapBui
 }
 
 void MapRun::localise(const Scan& scan) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point start = Clock::now();
+  const Said said = look_at(scan);
+  const double elapsed_ms = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+  scan_log_.push_back({scan.number, scan.cloud.utime_us, said.state, said.probability, elapsed_ms});
+}
+
+MapRun::Said MapRun::look_at(const Scan& scan) {
   note(scan);
-  if (go_back(scan)) return;
+  if (const auto said = go_back(scan)) return *said;
   const Localisation found =
       now_->localiser().localise(scan.cloud, scan.T_odom_base, scan.odometry_tilt);
   if (found.odometry_bias) odometry_bias_ = found.odometry_bias;
   if (!floor_ && localiser_.tilt == TiltUse::kPlanar) floor_ = found.floor;
-  if (found.tracking()) return take(scan, found);
+  const Said said{found.state, found.confidence};
+  if (found.tracking()) {
+    take(scan, found);
+    return said;
+  }
   note_lost(scan, found.state);
   // Not searched for at the end: what did not hold it now may seem to hold it elsewhere.
-  if (matching::is_followed(found)) return;
+  if (matching::is_followed(found)) return said;
   is_near(scan, found) ? wait(scan) : begin_piece(scan, found);
+  return said;
 }
 
 void MapRun::place(Scan scan, const Pose3& T_map_base) {
@@ -178,16 +192,16 @@ void MapRun::note_lost(const Scan& scan, LocalisationState state) {
 }
 
 // Where the scan fits the piece before, the newest one's only scan was bad.
-bool MapRun::go_back(const Scan& scan) {
-  if (!left_) return false;
+std::optional<MapRun::Said> MapRun::go_back(const Scan& scan) {
+  if (!left_) return std::nullopt;
   const Localisation found =
       left_->localiser().localise(scan.cloud, scan.T_odom_base, scan.odometry_tilt);
-  if (!found.tracking()) return false;
+  if (!found.tracking()) return std::nullopt;
   loosen(*std::exchange(now_, std::exchange(left_, nullptr)));
   behind_.reset();
   joint_.clear();
   take(scan, found);
-  return true;
+  return Said{found.state, found.confidence};
 }
 
 // Whether the next scan, or the one after, fits the piece that the robot is in.

@@ -8,6 +8,7 @@
 #include "services/voxlist/maps/ahead/look_ahead.h"
 #include "services/voxlist/maps/odometry_trail.h"
 #include "services/voxlist/maps/piece_closing.h"
+#include "services/voxlist/maps/scan_log.h"
 #include "services/voxlist/maps/summary.h"
 #include "services/voxlist/recording/scan_input.h"
 #include "voxlist/mapping/keyframe_spool.h"
@@ -59,6 +60,9 @@ class MapRun {
   /// Where the map's keyframes stand and what holds them; none where finish() closed no loops.
   const mapping::StoredGraph& graph() const { return closing_.graph; }
 
+  /// What was said of each scan that was localised, in their order.
+  const std::vector<ScanRow>& scan_log() const { return scan_log_; }
+
   /// What became of the scans, and no more than that.
   RunFigures figures() const;
 
@@ -83,7 +87,14 @@ class MapRun {
   void note_lost(const Scan& scan, matching::LocalisationState state);
   std::int64_t count_ambiguous() const;
 
-  bool go_back(const Scan& scan);
+  // What was said of a scan, after all that follows from it was done.
+  struct Said {
+    matching::LocalisationState state;
+    double probability;
+  };
+  Said look_at(const Scan& scan);
+
+  std::optional<Said> go_back(const Scan& scan);
   bool is_near(const Scan& scan, const matching::Localisation& found) const;
   void wait(const Scan& scan);
   void begin_piece(const Scan& scan, const matching::Localisation& elsewhere);
@@ -119,6 +130,7 @@ class MapRun {
   std::vector<mapping::SpooledKeyframe> loose_;
   PieceClosing closing_;
   std::int64_t scans_ = 0;
+  std::vector<ScanRow> scan_log_;
   // Times of scans that were AMBIGUOUS when they came.
   std::vector<std::int64_t> ambiguous_us_;
   std::optional<std::int64_t> first_us_;

@@ -5,8 +5,8 @@
 #include <numeric>
 #include <string>
 
-#include "tests/bench/scanner_error/measures.h"
-#include "tests/bench/scanner_error/recording.h"
+#include "services/voxlist/report/measured/scanner_measures.h"
+#include "services/voxlist/report/measured/scanner_recording.h"
 #include "voxlist/drawing/plot.h"
 
 namespace voxlist::bench {
@@ -19,18 +19,18 @@ struct Closest {
 };
 
 struct Figures {
-  RandomError random;
+  desk::RandomError random;
   double dimensions_m, positions_m;
   Closest drifting, repeating;
 };
 
 // Distances between two scans that the same side of the mirror made.
-Closest measure_closest(const Recording& recording,
+Closest measure_closest(const desk::ScannerRecording& recording,
                         const scanner::CloudAssemblerConfig& assembler) {
   const std::vector<Cloud> clouds = recording.clouds(assembler);
-  const auto distances = closest_distances(clouds[clouds.size() - 3], clouds.back());
+  const auto distances = desk::closest_distances(clouds[clouds.size() - 3], clouds.back());
   Closest closest;
-  closest.shares = by_millimetre(distances);
+  closest.shares = desk::by_millimetre(distances);
   const auto mode = std::ranges::max_element(closest.shares) - closest.shares.begin();
   closest.mode_m = (static_cast<double>(mode) + 0.5) * 1e-3;
   closest.median_m = distances[distances.size() / 2];
@@ -39,13 +39,13 @@ Closest measure_closest(const Recording& recording,
   return closest;
 }
 
-Figures measure(const Recording& drifting, const Recording& repeating,
+Figures measure(const desk::ScannerRecording& drifting, const desk::ScannerRecording& repeating,
                 const scanner::CloudAssemblerConfig& assembler) {
   const std::vector<Cloud> clouds = drifting.clouds(assembler);
   const auto points = drifting.noise_free_turn(assembler);
-  return {random_error(clouds[clouds.size() - 2], clouds.back()), error_on_six_metres(points),
-          error_at_six_metres(points), measure_closest(drifting, assembler),
-          measure_closest(repeating, assembler)};
+  return {desk::random_error(clouds[clouds.size() - 2], clouds.back()),
+          desk::error_on_six_metres(points), desk::error_at_six_metres(points),
+          measure_closest(drifting, assembler), measure_closest(repeating, assembler)};
 }
 
 // Misaligned as a scanner that was built with care but never calibrated.
@@ -73,7 +73,7 @@ scanner::CloudAssemblerConfig as_drawn() {
   return assembler;
 }
 
-scanner::CloudAssemblerConfig calibrated(const Recording& recording) {
+scanner::CloudAssemblerConfig calibrated(const desk::ScannerRecording& recording) {
   scanner::CloudAssemblerConfig assembler = as_drawn();
   const calibration::Calibration calibration =
       calibration::calibrate(recording.log(), assembler, {});
@@ -138,9 +138,9 @@ int main(int argc, char** argv) {
   using namespace voxlist::bench;
   std::vector<Figures> columns;
   for (voxlist::simulation::MirrorScannerConfig config : {uncalibrated(), flexing()}) {
-    const Recording drifting(config);
+    const voxlist::desk::ScannerRecording drifting(config);
     config.turns_per_second = 75.0;
-    const Recording repeating(config);
+    const voxlist::desk::ScannerRecording repeating(config);
     columns.push_back(measure(drifting, repeating, as_drawn()));
     columns.push_back(measure(drifting, repeating, calibrated(drifting)));
   }

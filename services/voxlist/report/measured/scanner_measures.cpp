@@ -1,4 +1,4 @@
-#include "tests/bench/scanner_error/measures.h"
+#include "services/voxlist/report/measured/scanner_measures.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -7,7 +7,7 @@
 
 #include "voxlist/simulation/random.h"
 
-namespace voxlist::bench {
+namespace voxlist::desk {
 namespace {
 
 using Eigen::Vector3d;
@@ -52,16 +52,16 @@ RandomError random_error(const Cloud& first, const Cloud& second) {
           (flatness_m(points, 1, -half.y()) + flatness_m(points, 1, half.y())) / 2.0};
 }
 
-double error_on_six_metres(const std::vector<Recording::SeenPoint>& points) {
+double error_on_six_metres(const std::vector<ScannerRecording::SeenPoint>& points) {
   constexpr int kPairs = 5000, kTries = 1'000'000;
   simulation::Random random(6);
-  const auto any = [&]() -> const Recording::SeenPoint& {
+  const auto any = [&]() -> const ScannerRecording::SeenPoint& {
     return points[random.bits() % points.size()];
   };
   double sum = 0.0;
   int pairs = 0;
   for (int i = 0; i < kTries && pairs < kPairs; ++i) {
-    const Recording::SeenPoint &a = any(), &b = any();
+    const ScannerRecording::SeenPoint &a = any(), &b = any();
     const double truth_m = (a.truth - b.truth).norm();
     if (truth_m < 5.5 || truth_m > 6.5) continue;
     sum += std::abs((a.seen - b.seen).norm() - truth_m);
@@ -70,7 +70,7 @@ double error_on_six_metres(const std::vector<Recording::SeenPoint>& points) {
   return sum / pairs;
 }
 
-double error_at_six_metres(const std::vector<Recording::SeenPoint>& points) {
+double error_at_six_metres(const std::vector<ScannerRecording::SeenPoint>& points) {
   const Vector3d mirror(0.0, 0.0, 0.6);
   double sum = 0.0;
   for (const auto& point : points)
@@ -99,4 +99,4 @@ std::array<double, 40> by_millimetre(const std::vector<double>& distances_m) {
   return shares;
 }
 
-}  // namespace voxlist::bench
+}  // namespace voxlist::desk

@@ -1,4 +1,4 @@
-#include "tests/bench/scanner_error/recording.h"
+#include "services/voxlist/report/measured/scanner_recording.h"
 
 #include <cmath>
 
@@ -8,7 +8,7 @@
 #include "voxlist/scanner/sweep/cloud_assembler.h"
 #include "voxlist/scanner/sweep/mirror_motion.h"
 
-namespace voxlist::bench {
+namespace voxlist::desk {
 namespace {
 
 using Eigen::Vector3d;
@@ -42,7 +42,7 @@ scanner::MirrorClock clock_of(const simulation::MirrorScannerConfig& config) {
 
 }  // namespace
 
-Recording::Recording(const simulation::MirrorScannerConfig& config)
+ScannerRecording::ScannerRecording(const simulation::MirrorScannerConfig& config)
     : config_(config),
       world_(room_of_figure_8()),
       stands_(1.0, {kStand}),
@@ -59,7 +59,7 @@ Recording::Recording(const simulation::MirrorScannerConfig& config)
   }
 }
 
-std::vector<Cloud> Recording::clouds(const scanner::CloudAssemblerConfig& config) const {
+std::vector<Cloud> ScannerRecording::clouds(const scanner::CloudAssemblerConfig& config) const {
   scanner::CloudAssembler assembler(config);
   std::vector<Cloud> clouds;
   const auto take = [&](scanner::Assembly assembly) {
@@ -73,7 +73,7 @@ std::vector<Cloud> Recording::clouds(const scanner::CloudAssemblerConfig& config
   return clouds;
 }
 
-std::vector<Recording::SeenPoint> Recording::noise_free_turn(
+std::vector<ScannerRecording::SeenPoint> ScannerRecording::noise_free_turn(
     const scanner::CloudAssemblerConfig& config) const {
   const scanner::BeamGeometry geometry(config);
   scanner::MirrorMotion motion(config.staircase,
@@ -100,4 +100,4 @@ std::vector<Recording::SeenPoint> Recording::noise_free_turn(
   return points;
 }
 
-}  // namespace voxlist::bench
+}  // namespace voxlist::desk

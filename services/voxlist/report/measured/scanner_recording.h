@@ -6,7 +6,7 @@
 #include "voxlist/calibration/calibrate.h"
 #include "voxlist/simulation/scanner/mirror_scanner.h"
 
-namespace voxlist::bench {
+namespace voxlist::desk {
 
 /// The room of the paper's Fig. 8, half its inner size, and where the robot stands in it; its
 /// middle is the origin, the floor z = 0.
@@ -14,9 +14,9 @@ inline const Eigen::Vector3d kRoomHalf_m(1.5, 3.0, 1.375);
 inline constexpr Pose2 kStand{0.1, -0.2, 0.3};
 
 /// A robot that stands in that room and scans it once a second.
-class Recording {
+class ScannerRecording {
  public:
-  explicit Recording(const simulation::MirrorScannerConfig& config);
+  explicit ScannerRecording(const simulation::MirrorScannerConfig& config);
 
   /// LASER, and MIRROR by the monitor's own class, of a minute.
   const calibration::CalibrationInput& log() const { return log_; }
@@ -40,4 +40,4 @@ class Recording {
   calibration::CalibrationInput log_;
 };
 
-}  // namespace voxlist::bench
+}  // namespace voxlist::desk
