@@ -179,7 +179,7 @@ void add_map(CLI::App& program, Command& chosen) {
   add_options(*command, *options);
   command->footer(
       "Writes trajectory.tum, trajectory_covariance.txt, graph.g2o, map.ply, map.png, map.bt,\n"
-      "keyframes.voxlist, summary.json.\n"
+      "keyframes.voxlist, scans.csv, summary.json.\n"
       "--into MAPDIR: the same as voxlist extend MAPDIR INPUT.\n"
       "Exit code 3: less than half of the scans were placed; the last line says what would help.\n"
       "Examples:\n"

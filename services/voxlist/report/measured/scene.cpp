@@ -58,7 +58,7 @@ std::vector<simulation::Trajectory> people_about(const Pose2& pose, int people,
 
 }  // namespace
 
-ReportScale quick_scale() { return {3, 200, 4, 1}; }
+ReportScale quick_scale() { return {3, 200, 4, 1, 5}; }
 
 Scene::Scene(int seed, const ReportScale& scale, Floor floor)
     : seed_(seed),

@@ -19,6 +19,7 @@ struct ReportScale {
   int wrong_poses = 2000;      ///< poses whose overlap is counted for each resolution
   int reliability_scans = 60;  ///< of each kind, in each building
   int buildings = 3;           ///< for the reliability of probabilities
+  int mapped = 20;             ///< scans of the maps that compare resolutions
 };
 
 /// The same figures, of a few scans each: to see that all is there.

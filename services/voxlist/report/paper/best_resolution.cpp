@@ -149,12 +149,31 @@ struct Mapping {
   MatchedMap map;
 };
 
-Table mapping_table(const std::vector<Mapping>& maps, std::size_t scans) {
-  Table table{"Mapping: 20 scans of a tour, each matched with the map of those before",
-              {"by", "scans placed", "mean error", "greatest"},
+// By the filter with and without floor and ceiling, and by the localiser.
+std::vector<Mapping> mapped(const Scene& scene) {
+  std::vector<PlacedScan> whole = scene.tour();
+  whole.resize(static_cast<std::size_t>(scene.scale().mapped));
+  std::vector<PlacedScan> bands = whole;
+  for (PlacedScan& scan : bands) scan = band_of(scan, kBandLow_m, kBandHigh_m);
+  constexpr int kFactors[] = {1, 2, 4, 8};
+  std::vector<Mapping> maps(2 * std::size(kFactors));
+  tbb::parallel_for(std::size_t{0}, maps.size(), [&](std::size_t i) {
+    const int factor = kFactors[i / 2];
+    const bool is_band = i % 2 == 1;
+    maps[i] = {
+        fmt::format("filter to {:.2f} m{}", 0.02 * factor, is_band ? ", no floor or ceiling" : ""),
+        map_by_filter(is_band ? bands : whole, factor, scene.seed())};
+  });
+  maps.push_back({"Voxlist's localiser", map_by_localiser(whole, scene.seed())});
+  return maps;
+}
+
+Table mapping_table(const std::vector<Mapping>& maps) {
+  Table table{"Mapping: scans of a tour, each matched with the map of those before",
+              {"by", "scans", "mean error", "greatest"},
               {}};
   for (const Mapping& m : maps)
-    table.rows.push_back({m.name, fmt::format("{} of {}", m.map.poses.size(), scans),
+    table.rows.push_back({m.name, fmt::format("{}", m.map.poses.size()),
                           metres(moments(m.map.errors_m).mean),
                           metres(percentile(m.map.errors_m, 1.0))});
   return table;
@@ -166,15 +185,7 @@ Entry best_resolution(const Scene& scene) {
   const auto queries = scene.queries(scene.scale().queries);
   const Scores exact = localise(scene.tour(), queries);
   const Scores flexing = localise(all_flexed(scene.tour()), all_flexed(queries));
-  std::vector<Mapping> maps;
-  std::vector<PlacedScan> bands = scene.tour();
-  for (PlacedScan& scan : bands) scan = band_of(scan, kBandLow_m, kBandHigh_m);
-  for (const int factor : {1, 2, 4, 8}) {
-    const std::string name = fmt::format("filter to {:.2f} m", 0.02 * factor);
-    maps.push_back({name, map_by_filter(scene.tour(), factor, scene.seed())});
-    maps.push_back({name + ", no floor or ceiling", map_by_filter(bands, factor, scene.seed())});
-  }
-  maps.push_back({"Voxlist's localiser", map_by_localiser(scene.tour(), scene.seed())});
+  const std::vector<Mapping> maps = mapped(scene);
   const Scene floor(scene.seed(), scene.scale(), Floor::kLarger);
   const Scores larger = localise(floor.tour(), floor.queries(scene.scale().queries));
   Entry entry;
@@ -198,8 +209,7 @@ Entry best_resolution(const Scene& scene) {
        fmt::format("{} of {}, {}", exact.engine.right, queries.size(),
                    millimetres(exact.engine.median_m()))}};
   entry.panels = {{success(exact, flexing)}, {error(exact, flexing)}};
-  entry.tables = {localisation_table(exact, flexing, larger),
-                  mapping_table(maps, scene.tour().size())};
+  entry.tables = {localisation_table(exact, flexing, larger), mapping_table(maps)};
   entry.differs =
       "Finer levels lose the right place even with an exact scanner: a map of few scans fills only "
       "a "

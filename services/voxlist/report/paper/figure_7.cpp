@@ -67,9 +67,8 @@ Entry figure_7(const Scene&) {
                   {picture("lines that drift (75.03 Hz)", drifting)}};
   entry.differs =
       "The figure tells noise and where lines fall, not systematic error: both scans have that. "
-      "The "
-      "paper's values lie between our two: its lines drifted by a small part of their spacing from "
-      "scan to scan.";
+      "The paper's values lie between our two, as those of lines would that drift by a small "
+      "part of their spacing from scan to scan.";
   entry.seeds = "noise of the laser 8; --seed does not change it";
   return entry;
 }
