@@ -12,6 +12,7 @@
 #include "services/voxlist/output/stop.h"
 #include "services/voxlist/report/paper/figures.h"
 #include "services/voxlist/report/paper/real_scans.h"
+#include "voxlist/io/files/file.h"
 #include "voxlist/system/version.h"
 
 namespace voxlist::desk {
@@ -49,6 +50,8 @@ std::vector<std::string> all_ids() {
 }
 
 void check(const PaperOptions& options) {
+  if (!options.data.empty() && !std::filesystem::is_directory(options.data))
+    throw io::FileError(options.data, "is no folder, give the one that holds the recorded scans");
   const std::vector<std::string> ids = all_ids();
   for (const std::string& id : options.only) {
     if (std::ranges::count(ids, id) == 0)

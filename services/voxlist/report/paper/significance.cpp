@@ -117,7 +117,7 @@ Entry significance(const Scene& scene) {
                        .svg()}};
   entry.tables = {paper_example(), our_levels(levels)};
   entry.differs =
-      "The formula takes voxels to be independent. They lie on surfaces, so most wrong poses in a "
+      "The formula takes voxels to be independent. They lie on surfaces, so many wrong poses in a "
       "building are \"significant\", too. Voxlist publishes the value, and decides by a "
       "probability "
       "that compares the best pose with all others that were examined; the next section shows what "
