@@ -76,7 +76,7 @@ scanner::CloudAssemblerConfig as_drawn() {
 scanner::CloudAssemblerConfig calibrated(const desk::ScannerRecording& recording) {
   scanner::CloudAssemblerConfig assembler = as_drawn();
   const calibration::Calibration calibration =
-      calibration::calibrate(recording.log(), assembler, {});
+      calibration::calibrate(recording.input(), assembler, {});
   for (const std::string& refusal : calibration.refusals)
     std::printf("calibration refused: %s\n", refusal.c_str());
   if (calibration.answer && calibration.refusals.empty())

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "voxlist/geometry/elementary.h"
 #include "voxlist/matching/localisation/localiser.h"
 #include "voxlist/simulation/random.h"
 
@@ -69,10 +70,11 @@ Cloud flexed(Cloud scan) {
   constexpr double kFlex_rad = 0.33 * kRadians, kAxis_m = 0.6;
   for (Eigen::Vector3f& point : scan.points) {
     const double x = point.x(), z = point.z() - kAxis_m;
-    const double phi = std::atan2(-x, z);  // 0: straight up; the mirror turns by half of it
-    const double turned = phi + 2.0 * kFlex_rad * std::sin(phi / 2.0), range = std::hypot(x, z);
-    point.x() = static_cast<float>(-range * std::sin(turned));
-    point.z() = static_cast<float>(range * std::cos(turned) + kAxis_m);
+    const double phi = elementary::atan2(-x, z);  // 0: straight up; the mirror turns by half of it
+    const double turned = phi + 2.0 * kFlex_rad * elementary::sin(phi / 2.0),
+                 range = elementary::hypot(x, z);
+    point.x() = static_cast<float>(-range * elementary::sin(turned));
+    point.z() = static_cast<float>(range * elementary::cos(turned) + kAxis_m);
   }
   return scan;
 }

@@ -19,7 +19,7 @@ class ScannerRecording {
   explicit ScannerRecording(const simulation::MirrorScannerConfig& config);
 
   /// LASER, and MIRROR by the monitor's own class, of a minute.
-  const calibration::CalibrationInput& log() const { return log_; }
+  const calibration::CalibrationInput& input() const { return log_; }
 
   /// The clouds that the assembler makes of the log's last seconds.
   std::vector<Cloud> clouds(const scanner::CloudAssemblerConfig& assembler) const;

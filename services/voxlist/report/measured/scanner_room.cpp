@@ -30,7 +30,7 @@ scanner::CloudAssemblerConfig as_drawn() {
 
 scanner::CloudAssemblerConfig calibrated(const ScannerRecording& recording, std::string& refusal) {
   scanner::CloudAssemblerConfig assembler = as_drawn();
-  const calibration::Calibration found = calibration::calibrate(recording.log(), assembler, {});
+  const calibration::Calibration found = calibration::calibrate(recording.input(), assembler, {});
   if (!found.refusals.empty()) refusal = found.refusals.front();
   if (found.answer && found.refusals.empty())
     assembler.geometry = calibration::with_parameters(assembler.geometry, found.answer->parameters);

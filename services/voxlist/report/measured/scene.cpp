@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "voxlist/geometry/elementary.h"
 #include "voxlist/simulation/random.h"
 #include "voxlist/simulation/run/simulated_run.h"
 #include "voxlist/simulation/scanner/ideal_sweep.h"
@@ -50,8 +51,8 @@ std::vector<simulation::Trajectory> people_about(const Pose2& pose, int people,
     const double bearing = random.uniform(-std::numbers::pi, std::numbers::pi);
     const double range = random.uniform(0.8, 3.0);
     standing.emplace_back(
-        1.0, std::vector<Pose2>{
-                 pose * Pose2{range * std::cos(bearing), range * std::sin(bearing), bearing}});
+        1.0, std::vector<Pose2>{pose * Pose2{range * elementary::cos(bearing),
+                                             range * elementary::sin(bearing), bearing}});
   }
   return standing;
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "voxlist/geometry/elementary.h"
+
 namespace voxlist::desk {
 namespace {
 
@@ -30,7 +32,7 @@ double percentile(std::vector<double> values, double share) {
 
 double normal_density(double value, const Moments& of) {
   const double z = (value - of.mean) / of.sd;
-  return std::exp(-0.5 * z * z) / (of.sd * std::sqrt(2.0 * std::numbers::pi));
+  return elementary::exp(-0.5 * z * z) / (of.sd * std::sqrt(2.0 * std::numbers::pi));
 }
 
 double distance_from_normal(std::vector<double> values, const Moments& of) {
