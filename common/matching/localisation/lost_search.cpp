@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include "voxlist/matching/engines/global_matcher.h"
 #include "voxlist/matching/localisation/reach_match.h"
@@ -29,6 +30,14 @@ constexpr double kPlain = 0.99999;
 constexpr double kOff_m = 0.3, kOff_rad = 0.12;
 // A hint is looked at no farther than this (m) to each side.
 constexpr double kWidestHint_m = 5.0;
+// A robot that moved less than this (m) between two scans stands, or turns on the spot, and sees
+// the same again. Chosen by judgement: well below what a driving robot moves in the second of a
+// sweep.
+constexpr double kStanding_m = 0.05;
+// From where it stands, at least this share of a scan's points is where it was, unless it was
+// carried: of a corridor and a room about 0.3 are. Chosen by judgement. Lower: some places pass for
+// each other; higher: a person who steps in front does for a carry, and the scan is judged alone.
+constexpr double kLeastSame = 0.6;
 // Without odometry, scans farther apart in time (s) than this are not matched with each other.
 constexpr double kLongestGap_s = 3.0;
 
@@ -188,11 +197,31 @@ Localisation LostSearch::add(const PreparedScan& scan, const std::optional<Pose2
 
 // Moves the hypotheses as the robot moved; without a motion they are worth nothing.
 void LostSearch::follow(const PreparedScan& scan, const std::optional<Pose2>& T_odom_base) {
+  const bool is_carried = was_carried(scan, T_odom_base);
+  // The sweep in which it was carried shows both places.
+  const bool is_other_place = std::exchange(is_carried_, is_carried) || is_carried;
+  if (is_other_place || !stands(T_odom_base)) standing_ = {scan.cloud(), T_odom_base};
   if (hypotheses_.empty()) return;
-  if (const auto motion = motion_to(scan, T_odom_base))
+  const auto motion = motion_to(scan, T_odom_base);
+  if (motion && !is_other_place)
     hypotheses_.move(*motion);
   else
     hypotheses_.clear();
+}
+
+bool LostSearch::stands(const std::optional<Pose2>& T_odom_base) const {
+  return standing_.T_odom_base && T_odom_base &&
+         distance_m(*standing_.T_odom_base, *T_odom_base) < kStanding_m;
+}
+
+// Whether a robot whose wheels stand sees something else than when they came to stand. Such a scan
+// would count for nothing beside what was believed of the place before (Hypotheses::move).
+bool LostSearch::was_carried(const PreparedScan& scan,
+                             const std::optional<Pose2>& T_odom_base) const {
+  if (!stands(T_odom_base)) return false;
+  const Pose2 motion = standing_.T_odom_base->inverse() * *T_odom_base;
+  return !scan_motion(standing_.cloud, scan, {motion, kOff_m, kOff_m, kOff_rad}, config_,
+                      kLeastSame);
 }
 
 std::optional<Pose2> LostSearch::motion_to(const PreparedScan& scan,

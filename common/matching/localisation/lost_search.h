@@ -25,6 +25,8 @@ class LostSearch {
 
  private:
   void follow(const PreparedScan& scan, const std::optional<Pose2>& T_odom_base);
+  bool stands(const std::optional<Pose2>& T_odom_base) const;
+  bool was_carried(const PreparedScan& scan, const std::optional<Pose2>& T_odom_base) const;
   std::optional<Pose2> motion_to(const PreparedScan& scan,
                                  const std::optional<Pose2>& T_odom_base) const;
   void find_again(const PreparedScan& scan, Matcher& matcher, std::vector<PoseMode>& modes) const;
@@ -34,6 +36,12 @@ class LostSearch {
   Hypotheses hypotheses_;
   Cloud last_;
   std::optional<Pose2> T_odom_last_;
+  // The scan with which the wheels came to stand.
+  struct {
+    Cloud cloud;
+    std::optional<Pose2> T_odom_base;
+  } standing_;
+  bool is_carried_ = false;  // in the last scan
 };
 
 }  // namespace voxlist::matching

@@ -96,6 +96,33 @@ TEST(LostSearch, IsSureOfAPoseThatExplainsAllAndStandsAlone) {
   EXPECT_EQ(matcher.asked, 0);
 }
 
+// Somebody puts a robot, whose wheels stand, from a place that the map does not know into one that
+// it does.
+TEST(LostSearch, FindsAtOnceARobotThatWasCarriedWhileItsWheelsStood) {
+  const Lost away(1.0), back(0.0);
+  OnePose matcher(away.map, back.truth, 0.88);
+  LostSearch search({}, {});
+  for (int i = 0; i < 5; ++i)
+    EXPECT_EQ(search.add(PreparedScan(away.scan), Pose2{}, matcher).state,
+              LocalisationState::kLost);
+  EXPECT_TRUE(search.add(PreparedScan(back.scan), Pose2{}, matcher).tracking());
+}
+
+// The sweep in which it is carried shows some of both places, whichever more of.
+TEST(LostSearch, JudgesTheScanAfterTheOneInWhichItWasCarriedByItself) {
+  const Lost away(1.0), back(0.0);
+  for (const std::size_t share : {2, 4}) {
+    OnePose matcher(away.map, back.truth, 0.88);
+    LostSearch search({}, {});
+    search.add(PreparedScan(away.scan), Pose2{}, matcher);
+    Cloud both = back.scan;
+    for (std::size_t i = 0; i < both.points.size(); i += share)
+      both.points[i] = away.scan.points[i];
+    EXPECT_FALSE(search.add(PreparedScan(both), Pose2{}, matcher).tracking());
+    EXPECT_TRUE(search.add(PreparedScan(back.scan), Pose2{}, matcher).tracking());
+  }
+}
+
 // As along a corridor: the place is right, and no surface tells where in it.
 TEST(LostSearch, TellsNoPoseThatNoSurfaceHolds) {
   const Lost lost(0.0);
