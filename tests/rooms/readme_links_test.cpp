@@ -1,4 +1,5 @@
-// Links in the READMEs lead to files that are there.
+// Links in the READMEs lead to files that are there, and no formatter of code went over their
+// titles.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -43,6 +44,15 @@ TEST(Readmes, LinkToFilesThatAreThere) {
     }
   }
   EXPECT_GT(links, 100);
+}
+
+TEST(Readmes, BeginWithATitle) {
+  for (const fs::path& readme : readmes()) {
+    std::ifstream in(readme);
+    std::string title;
+    std::getline(in, title);
+    EXPECT_TRUE(title.starts_with("# ")) << readme << ": " << title;
+  }
 }
 
 }  // namespace
