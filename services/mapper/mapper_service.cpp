@@ -60,6 +60,16 @@ mapping::MapBuilderConfig with_free_space(mapping::MapBuilderConfig config) {
   return config;
 }
 
+// What tracks pieces apart, on one thread: the robot's other services go on beside it.
+matching::LocaliserConfig localiser_of(const MapperServiceConfig& config) {
+  matching::LocaliserConfig localiser;
+  localiser.max_speed_mps = config.max_speed_mps;
+  localiser.max_turn_rate_dps = config.max_turn_rate_dps;
+  localiser.tilt = config.tilt;
+  localiser.threads = 1;
+  return localiser;
+}
+
 }  // namespace
 
 MapperService::MapperService(bus::Bus& bus, bus::Health& health, const MapperServiceConfig& config)
@@ -69,7 +79,8 @@ MapperService::MapperService(bus::Bus& bus, bus::Health& health, const MapperSer
       builder_(with_free_space(config.builder)),
       keyframes_(health, in_state_folder(config.folder), config.extend, new_map_id(), builder_),
       loops_(health, config.close_loops, with_free_space(config.builder)),
-      apart_(health, keyframes_.folder(), !builder_.poses().empty(), config.tilt, config.builder),
+      apart_(health, keyframes_.folder(), !builder_.poses().empty(), localiser_of(config),
+             config.builder),
       moves_(keyframes_.moves()),
       map_id_(keyframes_.map_id()),
       is_extending_(config.extend),

@@ -37,6 +37,8 @@ struct MapperServiceConfig {
   std::string folder = "map";
   bool extend = true;
   TiltUse tilt = TiltUse::kPlanar;
+  double max_speed_mps = matching::LocaliserConfig{}.max_speed_mps;
+  double max_turn_rate_dps = matching::LocaliserConfig{}.max_turn_rate_dps;
   LoopUse close_loops = LoopUse::kOnStop;
   double last_loops_s = 5.0;
   mapping::MapBuilderConfig builder;
@@ -51,6 +53,10 @@ struct MapperServiceConfig {
     v("tilt", tilt, kTiltNames,
       "as in [localiser]. planar: clouds whose pose has height, roll or pitch stay out of the map; "
       "refine, odometry: they go into it as they are");
+    v("max_speed_mps", max_speed_mps,
+      "as in [localiser]: when the robot has left the map, and how pieces apart are tracked", 0.01,
+      50.0);
+    v("max_turn_rate_dps", max_turn_rate_dps, "as in [localiser], for pieces apart", 1.0, 720.0);
     v("close_loops", close_loops, kLoopUseNames,
       "where the robot came back to, keyframes move to where all scans agree. always: while it "
       "drives, too, so that POSE jumps; on_stop: the map is then the one that voxlist map makes of "

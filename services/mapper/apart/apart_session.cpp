@@ -33,20 +33,13 @@ std::size_t bytes_of(const Cloud& cloud) {
 
 const Pose2& pose_of(const Localisation& found) { return found.modes.front().T_map_base; }
 
-// One thread: the robot's other services go on beside it.
-matching::LocaliserConfig localiser_with(TiltUse tilt) {
-  matching::LocaliserConfig config;
-  config.tilt = tilt;
-  config.threads = 1;
-  return config;
-}
-
 }  // namespace
 
 ApartSession::ApartSession(bus::Health& health, const std::filesystem::path& folder, bool is_saved,
-                           TiltUse tilt, const mapping::MapBuilderConfig& builder)
+                           const matching::LocaliserConfig& localiser,
+                           const mapping::MapBuilderConfig& builder)
     : health_(health),
-      localiser_(localiser_with(tilt)),
+      localiser_(localiser),
       builder_(builder),
       is_saved_(is_saved),
       file_(health, folder) {

@@ -27,10 +27,11 @@ namespace voxlist::services {
 class ApartSession {
  public:
   /// A session on the map of this folder; nothing is kept apart without one (empty). `is_saved`:
-  /// the map was there before. A piece that an earlier mapper left in the middle of a drive is
-  /// taken up.
+  /// the map was there before. `localiser` tracks the pieces. A piece that an earlier mapper left
+  /// in the middle of a drive is taken up.
   ApartSession(bus::Health& health, const std::filesystem::path& folder, bool is_saved,
-               TiltUse tilt, const mapping::MapBuilderConfig& builder);
+               const matching::LocaliserConfig& localiser,
+               const mapping::MapBuilderConfig& builder);
   ~ApartSession();
 
   /// A cloud has no place in the map, which says this of it.

@@ -175,6 +175,16 @@ TEST_F(ApartSessionTest, BeginsWhereTheRobotLeavesTheMap) {
   EXPECT_FALSE(exists(recording()));
 }
 
+TEST_F(ApartSessionTest, BeginsNotWhereTheRobotIsTooSlowToHaveLeftTheMap) {
+  MapperServiceConfig slow;
+  slow.max_speed_mps = 0.5;
+  MapperScene live(folder_.string(), slow);
+  drive_found(live);
+  for (std::size_t place = kMapped; place <= kFirst; ++place) step(live, place, 0, false);
+  EXPECT_THAT(live.health(), testing::Not(testing::HasSubstr("apart")));
+  EXPECT_FALSE(exists(recording()));
+}
+
 TEST_F(ApartSessionTest, BeginsNotWhereTheRobotIsBackAtOnce) {
   MapperScene live(folder_.string());
   drive_found(live);

@@ -23,8 +23,7 @@ namespace voxlist::services {
 /// The mapper with a folder, and a test that plays localiser, wheels and listener.
 class MapperScene {
  public:
-  explicit MapperScene(const std::string& folder) {
-    MapperServiceConfig config;
+  explicit MapperScene(const std::string& folder, MapperServiceConfig config = {}) {
     config.folder = folder;
     config.close_loops = LoopUse::kOnStop;
     config.last_loops_s = 600.0;  // however slow the machine is
