@@ -67,11 +67,10 @@ std::optional<std::int32_t> DrivenWay::due(std::int64_t now_us) {
   return static_cast<std::int32_t>(first_missing_);
 }
 
-std::vector<Eigen::Vector3d> DrivenWay::way() const {
+std::vector<Eigen::Vector3d> DrivenWay::keyframes() const {
   std::vector<Eigen::Vector3d> way;
   for (const auto& keyframe : keyframes_)
     if (keyframe) way.push_back(*keyframe);
-  way.insert(way.end(), poses_.begin(), poses_.end());
   return way;
 }
 

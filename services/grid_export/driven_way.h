@@ -28,8 +28,11 @@ class DrivenWay {
   /// The first keyframe to ask for now, at most once a second.
   std::optional<std::int32_t> due(std::int64_t now_us);
 
-  /// Positions of base in the map: keyframes in their order, then poses.
-  std::vector<Eigen::Vector3d> way() const;
+  /// Positions of base in the map: at its keyframes, in their order.
+  std::vector<Eigen::Vector3d> keyframes() const;
+
+  /// The same at its poses.
+  const std::vector<Eigen::Vector3d>& poses() const { return poses_; }
 
  private:
   Map map_;

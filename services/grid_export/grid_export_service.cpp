@@ -141,7 +141,7 @@ void GridExportService::bring_up_to_date() {
     input->changed = {};
     input->is_replaced = false;
   }
-  if (std::exchange(way_has_grown_, false)) builder_.drive(way_.way());
+  if (std::exchange(way_has_grown_, false)) builder_.drive(way_.keyframes(), way_.poses());
 }
 
 void GridExportService::make(std::int64_t now_us) {
@@ -150,9 +150,8 @@ void GridExportService::make(std::int64_t now_us) {
   bring_up_to_date();
   const auto& held = *occupied_.follower.held();
   source_ = {held.utime_us, held.map_id, held.version};
-  std::vector<planning::TypedGrid> before = std::exchange(grids_, builder_.grids());
-  for (std::size_t i = 0; i < grids_.size(); ++i) send(i);
-  if (grids_ != before) is_saved_ = folder_.empty();
+  if (builder_.update()) is_saved_ = folder_.empty();
+  for (std::size_t i = 0; i < builder_.grids().size(); ++i) send(i);
   made_us_ = now_us;
   took_us_ = std::chrono::duration_cast<std::chrono::microseconds>(Clock::now() - start).count();
   health_.add_latency_us(took_us_);
@@ -160,9 +159,9 @@ void GridExportService::make(std::int64_t now_us) {
 
 void GridExportService::send(std::size_t robot) {
   bus_.publish(bus::Channel<pixel_map_t>{grid_channels_[robot].c_str()},
-               to_pixel_map(grids_[robot], source_), bus::Delivery::kLatest);
+               to_pixel_map(builder_.grids()[robot], source_), bus::Delivery::kLatest);
   bus_.publish(bus::Channel<traversability_t>{traversability_channels_[robot].c_str()},
-               to_traversability(grids_[robot], source_, builder_.robots()[robot].name),
+               to_traversability(builder_.grids()[robot], source_, builder_.robots()[robot].name),
                bus::Delivery::kLatest);
 }
 
@@ -170,8 +169,9 @@ void GridExportService::save(std::int64_t now_us) {
   save_error_.clear();
   try {
     std::filesystem::create_directories(folder_);
-    for (std::size_t i = 0; i < grids_.size(); ++i)
-      planning::write_grid(grids_[i], folder_, builder_.robots()[i].name);
+    const auto& grids = builder_.grids();
+    for (std::size_t i = 0; i < grids.size(); ++i)
+      planning::write_grid(grids[i], folder_, builder_.robots()[i].name);
   } catch (const std::exception& e) {
     save_error_ = e.what();
     health_.count("failed_saves");

@@ -85,7 +85,6 @@ class GridExportService {
   DrivenWay way_;
   planning::GridBuilder builder_;
   ScanOutput scans_;
-  std::vector<planning::TypedGrid> grids_;
   std::vector<std::string> grid_channels_, traversability_channels_;
   GridSource source_;
   std::optional<std::int64_t> map_id_;

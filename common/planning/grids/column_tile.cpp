@@ -1,5 +1,7 @@
 #include "voxlist/planning/grids/column_tile.h"
 
+#include <algorithm>
+
 namespace voxlist::planning {
 
 void ColumnTile::add(const std::vector<Span>& spans, const std::vector<FreeRun>& free) {
@@ -15,6 +17,15 @@ void ColumnTile::add(const std::vector<Span>& spans, const std::vector<FreeRun>&
 std::span<Span> ColumnTile::spans_at(std::int32_t x, std::int32_t y) {
   const auto found = of(spans_, spans_end_, static_cast<std::size_t>(x + kTileEdge * y));
   return {spans_.data() + (found.data() - spans_.data()), found.size()};
+}
+
+std::uint64_t ColumnTile::differs_from(const ColumnTile& other) const {
+  std::uint64_t columns = 0;
+  for (std::size_t i = 0; i < kColumns; ++i)
+    if (!std::ranges::equal(of(spans_, spans_end_, i), of(other.spans_, other.spans_end_, i)) ||
+        !std::ranges::equal(of(free_, free_end_, i), of(other.free_, other.free_end_, i)))
+      columns |= std::uint64_t{1} << i;
+  return columns;
 }
 
 std::size_t ColumnTile::memory_bytes() const {

@@ -22,11 +22,15 @@ struct Span {
   /// How much the surfaces on two opposite sides of it differ, where its own lies between (m): a
   /// kerb that runs through the column looks like two small steps otherwise.
   float kink_m = 0.0F;
+
+  bool operator==(const Span&) const = default;
 };
 
 /// Cells of a column that are free without a gap: numbers of cells, top not included.
 struct FreeRun {
   std::int32_t bottom = 0, top = 0;
+
+  bool operator==(const FreeRun&) const = default;
 };
 
 /// What stands over a cell of the floor plan, lowest first.
@@ -49,6 +53,9 @@ class ColumnTile {
 
   /// All spans of a column, to be changed.
   std::span<Span> spans_at(std::int32_t x, std::int32_t y);
+
+  /// A bit for each column, x first, that is not the same in another tile.
+  std::uint64_t differs_from(const ColumnTile& other) const;
 
   std::size_t memory_bytes() const;
 

@@ -60,7 +60,7 @@ float floor_under_base_m(const FloorColumns& columns, const std::vector<Eigen::V
   return static_cast<float>((bin + 0.5) * kBin_m - kDeepest_m);
 }
 
-std::vector<DrivenCell> driven_cells(const std::vector<Eigen::Vector3d>& way) {
+std::vector<DrivenCell> driven_cells(std::span<const Eigen::Vector3d> way) {
   std::vector<DrivenCell> cells;
   for (std::size_t i = 0; i < way.size(); ++i) {
     add_disc(way[i], cells);
@@ -71,6 +71,63 @@ std::vector<DrivenCell> driven_cells(const std::vector<Eigen::Vector3d>& way) {
     for (int k = 1; k < parts; ++k) add_disc(way[i - 1] + step * k / parts, cells);
   }
   return cells;
+}
+
+void DrivenCells::change_all() {
+  for (std::uint32_t i = 0; i < height_m_.size(); ++i)
+    changes_.push_back({cells_.key(i).x, cells_.key(i).y});
+}
+
+void DrivenCells::forget() {
+  change_all();
+  cells_ = Numbering<Voxel>();
+  height_m_.clear();
+  const Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+  add({&origin, 1});
+}
+
+void DrivenCells::add(std::span<const Eigen::Vector3d> way) {
+  for (const DrivenCell& at : driven_cells(way)) {
+    const std::uint32_t number = cells_.number({at.cell.x, at.cell.y, 0});
+    if (number == height_m_.size())
+      height_m_.push_back(at.height_m);
+    else if (at.height_m < height_m_[number])
+      height_m_[number] = at.height_m;
+    else
+      continue;
+    changes_.push_back(at.cell);
+  }
+}
+
+bool DrivenCells::drive(const std::vector<std::vector<Eigen::Vector3d>>& ways) {
+  const auto goes_on = [](const auto& way, const auto& before) {
+    return before.size() <= way.size() && std::equal(before.begin(), before.end(), way.begin());
+  };
+  const bool all_go_on = ways.size() >= ways_.size() &&
+                         std::equal(ways_.begin(), ways_.end(), ways.begin(),
+                                    [&](const auto& a, const auto& b) { return goes_on(b, a); });
+  if (!all_go_on) {
+    ways_.clear();
+    forget();
+  }
+  ways_.resize(ways.size());
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    // The way to its new part begins at its last position.
+    const std::size_t known = std::max<std::size_t>(ways_[i].size(), 1) - 1;
+    if (ways[i].size() > ways_[i].size()) add(std::span(ways[i]).subspan(known));
+    ways_[i] = ways[i];
+  }
+  return all_go_on;
+}
+
+void DrivenCells::set_floor_m(float floor_m) {
+  if (std::exchange(floor_m_, floor_m) != floor_m) change_all();
+}
+
+std::optional<float> DrivenCells::height_m(const Cell& cell) const {
+  const std::uint32_t number = cells_.find({cell.x, cell.y, 0});
+  if (number == Numbering<Voxel>::kNone) return std::nullopt;
+  return height_m_[number] + floor_m_;
 }
 
 }  // namespace voxlist::planning

@@ -1,6 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "voxlist/planning/grids/floor_columns.h"
@@ -27,6 +30,39 @@ float floor_under_base_m(const FloorColumns& columns, const std::vector<Eigen::V
 
 /// The columns along a way, given by positions of base in the map: base is on the floor under the
 /// robot. A cell may be told more than once.
-std::vector<DrivenCell> driven_cells(const std::vector<Eigen::Vector3d>& way);
+std::vector<DrivenCell> driven_cells(std::span<const Eigen::Vector3d> way);
+
+/// All columns that a robot stood on, each with the lowest height at which it did. The map's
+/// origin, where its first cloud was taken, is always one of them.
+class DrivenCells {
+ public:
+  DrivenCells() { forget(); }
+
+  /// Takes the ways that were driven; what goes on where one before ended costs its new part alone.
+  /// False: they do not go on, and all begins anew.
+  bool drive(const std::vector<std::vector<Eigen::Vector3d>>& ways);
+
+  /// The floor's height above or below base's (floor_under_base_m).
+  void set_floor_m(float floor_m);
+
+  /// The floor's height; none where nobody drove.
+  std::optional<float> height_m(const Cell& cell) const;
+
+  /// Lets the next take_changes() tell all cells.
+  void change_all();
+
+  /// Cells that are new, that are none any more, or whose height has changed, since the last call.
+  std::vector<Cell> take_changes() { return std::exchange(changes_, {}); }
+
+ private:
+  void forget();
+  void add(std::span<const Eigen::Vector3d> way);
+
+  std::vector<std::vector<Eigen::Vector3d>> ways_;
+  Numbering<Voxel> cells_;  // z = 0
+  std::vector<float> height_m_;
+  float floor_m_ = 0.0F;
+  std::vector<Cell> changes_;
+};
 
 }  // namespace voxlist::planning

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "voxlist/planning/grids/tile_maker.h"
 
@@ -112,14 +113,15 @@ void FloorColumns::take(const OccupancyMap& map, const OccupancyMap& free_space)
   remake(all, map, free_space);
 }
 
-void FloorColumns::follow(const OccupancyMap& map, const ChangedBlocks& changed,
-                          const OccupancyMap& free_space, const ChangedBlocks& changed_free) {
+std::vector<TileChange> FloorColumns::follow(const OccupancyMap& map, const ChangedBlocks& changed,
+                                             const OccupancyMap& free_space,
+                                             const ChangedBlocks& changed_free) {
   std::vector<std::uint32_t> tiles;
   for (const Voxel& block : changed.occupied) tiles.push_back(tile_of_voxels(block));
   for (const auto* blocks : {&changed_free.occupied, &changed_free.passed})
     for (const Voxel& block : *blocks) tiles.push_back(tile_of_free(block));
   sort_once(tiles);
-  remake(tiles, map, free_space);
+  return remake(tiles, map, free_space);
 }
 
 namespace {
@@ -145,12 +147,15 @@ ColumnTile make_tile(const Voxel& at, const std::vector<std::int32_t>& voxel_hei
 
 }  // namespace
 
-void FloorColumns::remake(const std::vector<std::uint32_t>& tiles, const OccupancyMap& map,
-                          const OccupancyMap& free_space) {
+std::vector<TileChange> FloorColumns::remake(const std::vector<std::uint32_t>& tiles,
+                                             const OccupancyMap& map,
+                                             const OccupancyMap& free_space) {
   place_tiles();
+  std::vector<ColumnTile> before;
   for (const std::uint32_t tile : tiles)
-    tiles_[tile] = make_tile(positions_.key(tile), heights_[tile].voxels, heights_[tile].free, map,
-                             free_space);
+    before.push_back(
+        std::exchange(tiles_[tile], make_tile(positions_.key(tile), heights_[tile].voxels,
+                                              heights_[tile].free, map, free_space)));
   std::vector<std::uint32_t> near;
   for (const std::uint32_t tile : tiles)
     for (std::int32_t i = 0; i < 9; ++i) {
@@ -159,15 +164,31 @@ void FloorColumns::remake(const std::vector<std::uint32_t>& tiles, const Occupan
       if (found != Numbering<Voxel>::kNone) near.push_back(found);
     }
   sort_once(near);
-  for (const std::uint32_t tile : near) note_kinks(positions_.key(tile));
+  std::vector<TileChange> changes;
+  std::size_t made = 0;  // both lists ascend
+  for (const std::uint32_t tile : near) {
+    const Voxel& at = positions_.key(tile);
+    std::uint64_t columns = note_kinks(at);
+    if (made < tiles.size() && tiles[made] == tile)
+      columns = tiles_[tile].differs_from(before[made++]);
+    if (columns != 0) changes.push_back({{at.x * kTileEdge, at.y * kTileEdge}, columns});
+  }
+  return changes;
 }
 
-void FloorColumns::note_kinks(const Voxel& tile) {
+// The columns of which a span's kink has changed.
+std::uint64_t FloorColumns::note_kinks(const Voxel& tile) {
   ColumnTile& columns = tiles_[positions_.find(tile)];
+  std::uint64_t changed = 0;
   for (std::int32_t y = 0; y < kTileEdge; ++y)
     for (std::int32_t x = 0; x < kTileEdge; ++x)
-      for (Span& span : columns.spans_at(x, y))
-        span.kink_m = kink_of({tile.x * kTileEdge + x, tile.y * kTileEdge + y}, span.surface_m);
+      for (Span& span : columns.spans_at(x, y)) {
+        const Cell cell{tile.x * kTileEdge + x, tile.y * kTileEdge + y};
+        const float kink_m = kink_of(cell, span.surface_m);
+        if (std::exchange(span.kink_m, kink_m) != kink_m)
+          changed |= std::uint64_t{1} << (x + kTileEdge * y);
+      }
+  return changed;
 }
 
 float FloorColumns::kink_of(const Cell& cell, float surface_m) const {

@@ -39,6 +39,12 @@ struct CellBox {
   bool operator==(const CellBox&) const = default;
 };
 
+/// Columns of a tile that have changed: a bit for each, x first, from its lowest one on.
+struct TileChange {
+  Cell low;
+  std::uint64_t columns = 0;
+};
+
 /// A map as columns over the floor plan: what blocks them, by voxels of 0.02 m, and what rays have
 /// freed, by cells of 0.08 m. What a person keeps blocked has no voxels: it blocks whole cells.
 /// Only columns that changed are made again; the same map gives the same columns, however it came.
@@ -48,8 +54,9 @@ class FloorColumns {
   void take(const OccupancyMap& map, const OccupancyMap& free_space);
 
   /// Follows blocks that changed since: `changed` in the map, `changed_free` in its free space.
-  void follow(const OccupancyMap& map, const ChangedBlocks& changed, const OccupancyMap& free_space,
-              const ChangedBlocks& changed_free);
+  /// Tells the columns that are others now.
+  std::vector<TileChange> follow(const OccupancyMap& map, const ChangedBlocks& changed,
+                                 const OccupancyMap& free_space, const ChangedBlocks& changed_free);
 
   /// The box holds all columns; there is none without any.
   const std::optional<CellBox>& bounds() const { return bounds_; }
@@ -68,12 +75,12 @@ class FloorColumns {
   std::uint32_t tile_of_voxels(const Voxel& block);
   std::uint32_t tile_of_free(const Voxel& block);
   std::uint32_t add_tile(const Voxel& position);
-  void remake(const std::vector<std::uint32_t>& tiles, const OccupancyMap& map,
-              const OccupancyMap& free_space);
+  std::vector<TileChange> remake(const std::vector<std::uint32_t>& tiles, const OccupancyMap& map,
+                                 const OccupancyMap& free_space);
   void grow(const Voxel& tile);
   void place_tiles();
   std::size_t place_of(const Voxel& tile) const;
-  void note_kinks(const Voxel& tile);
+  std::uint64_t note_kinks(const Voxel& tile);
   float kink_of(const Cell& cell, float surface_m) const;
 
   Numbering<Voxel> positions_;  // of tiles, z = 0

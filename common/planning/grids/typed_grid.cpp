@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "voxlist/planning/grids/cell_array.h"
+
 namespace voxlist::planning {
 namespace {
 
@@ -144,22 +146,30 @@ class Hanging {
 
 }  // namespace
 
-TypedGrid type_cells(const FloorColumns& columns, const Ground& ground, const RobotProfile& robot) {
-  TypedGrid grid{ground.box(), std::vector<CellType>(ground.box().size(), CellType::kUnknown)};
-  std::vector<float> hangs_m(grid.cells.size());
-  for (std::int32_t y = grid.box.low.y; y < grid.box.high.y; ++y)
-    for (std::int32_t x = grid.box.low.x; x < grid.box.high.x; ++x) {
+std::int32_t typing_margin(const RobotProfile& robot) {
+  return kClosings * static_cast<std::int32_t>(2.0 * robot.radius_m / kColumn_m);
+}
+
+TypedGrid type_cells(const FloorColumns& columns, const Ground& ground, const RobotProfile& robot,
+                     const CellBox& box) {
+  const CellBox whole = common_part(grown(box, typing_margin(robot)), ground.box());
+  TypedGrid grid{whole, std::vector<CellType>(whole.size(), CellType::kUnknown)};
+  std::vector<float> hangs_m(whole.size());
+  for (std::int32_t y = whole.low.y; y < whole.high.y; ++y)
+    for (std::int32_t x = whole.low.x; x < whole.high.x; ++x) {
       const Cell cell{x, y};
       const Footing footing = ground.footing(cell);
       if (footing == Footing::kNone) continue;
       const Column column = columns.at(cell);
       const Typed typed = Typing(column, footing, ground.height_m(cell), robot).type();
-      grid.cells[grid.box.index(cell)] = typed.type;
-      hangs_m[grid.box.index(cell)] = typed.hangs_m;
+      grid.cells[whole.index(cell)] = typed.type;
+      hangs_m[whole.index(cell)] = typed.hangs_m;
     }
   Hanging hanging(grid, std::move(hangs_m), 2.0 * robot.radius_m);
   for (int i = 0; i < kClosings; ++i) hanging.close();
-  return grid;
+  const CellBox part = common_part(box, whole);
+  if (part == whole) return grid;
+  return {part, relaid(whole, grid.cells, part, CellType::kUnknown)};
 }
 
 }  // namespace voxlist::planning

@@ -29,8 +29,14 @@ struct TypedGrid {
   bool operator==(const TypedGrid&) const = default;
 };
 
-/// Types the cells of a ground for a robot. Precondition: the ground is of these columns and the
-/// robot's step.
-TypedGrid type_cells(const FloorColumns& columns, const Ground& ground, const RobotProfile& robot);
+/// How far from a cell the types of others change its own (cells): surfaces that hang go on between
+/// cells that a robot does not fit between.
+std::int32_t typing_margin(const RobotProfile& robot);
+
+/// Types the cells of a box for a robot. Precondition: the ground is of these columns and the
+/// robot's step, and its box holds this one and typing_margin about it, as far as there are
+/// columns.
+TypedGrid type_cells(const FloorColumns& columns, const Ground& ground, const RobotProfile& robot,
+                     const CellBox& box);
 
 }  // namespace voxlist::planning

@@ -1,19 +1,17 @@
 // Grids of simulated buildings for a low robot and a tall one, against what is truly there.
 // Arguments: FIRST_SEED LAST_SEED [PICTURES_FOLDER], or "large": time and memory of a map of 200 x
 // 150 m; without: seed 1.
-#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <string>
 
-#include "tests/bench/figures.h"
 #include "tests/bench/grids/grid_scene.h"
+#include "tests/bench/grids/large_floor.h"
 #include "tests/bench/grids/true_grid.h"
 #include "voxlist/planning/grids/grid_builder.h"
 #include "voxlist/planning/grids/grid_files.h"
-#include "voxlist/system/memory.h"
 
 namespace voxlist::bench {
 namespace {
@@ -108,7 +106,8 @@ void run_buildings(int first, int last, const char* pictures) {
     planning::GridBuilder builder(robots());
     builder.drive(way);
     builder.take(scene.map.map(), scene.map.free_space());
-    const auto grids = builder.grids();
+    builder.update();
+    const auto& grids = builder.grids();
     for (std::size_t i = 0; i < grids.size(); ++i) {
       const std::string name = builder.robots()[i].name + std::to_string(seed);
       const Counts counts =
@@ -121,75 +120,12 @@ void run_buildings(int first, int last, const char* pictures) {
   for (std::size_t i = 0; i < all.size(); ++i) print("all, " + robots()[i].name, all[i]);
 }
 
-// A floor of 200 x 150 m with walls every 5 m along x, doors of 1 m in them, a ceiling.
-struct LargeMap {
-  LargeMap() {
-    constexpr std::int32_t kTilesX = 312, kTilesY = 234;
-    VoxelBlock all_free;
-    all_free.fill(~std::uint64_t{0});
-    for (std::int32_t y = 0; y < kTilesY; ++y)
-      for (std::int32_t x = 0; x < kTilesX; ++x) {
-        const bool is_wall = x % 8 == 7 && y % 8 > 1;
-        for (std::int32_t z = 0; z < 4; ++z)
-          if (!is_wall) free.passed.set_block({x, y, z}, all_free);
-        for (std::int32_t i = 0; i < 16; ++i) add(4 * x + i % 4, 4 * y + i / 4, is_wall);
-      }
-  }
-
-  // A column of blocks of 0.16 m.
-  void add(std::int32_t x, std::int32_t y, bool is_wall) {
-    map.occupied.set_block({x, y, -1}, {0, 0, 0, 0, 0, 0, 0, ~std::uint64_t{0}});
-    map.occupied.set_block({x, y, 16}, {~std::uint64_t{0}});
-    for (std::int32_t z = 0; is_wall && z < 16; ++z)
-      map.occupied.set_block({x, y, z}, VoxelBlock{1, 1, 1, 1, 1, 1, 1, 1});
-  }
-
-  OccupancyMap map, free{VoxelMap(kPassedResolution_m), VoxelMap(kPassedResolution_m)};
-};
-
-// What a cloud changes: blocks within 8 m.
-ChangedBlocks changed_about(const VoxelMap& blocks, double x_m, double y_m) {
-  ChangedBlocks changed;
-  const double edge_m = blocks.resolution_m() * kBlockEdge;
-  for (std::size_t i = 0; i < blocks.block_count(); ++i) {
-    const Voxel& at = blocks.block_position(i);
-    if (std::abs(at.x * edge_m - x_m) < 8.0 && std::abs(at.y * edge_m - y_m) < 8.0)
-      changed.occupied.push_back(at);
-  }
-  return changed;
-}
-
-void run_large() {
-  const auto resident_mb = [] { return static_cast<double>(memory_of_process()) * 1e-6; };
-  LargeMap large;
-  const double before_mb = resident_mb();
-  planning::GridBuilder builder(robots());
-  double start_ms = cpu_ms();
-  builder.take(large.map, large.free);
-  std::printf("columns of all: %.0f ms, %.0f MB of columns\n", cpu_ms() - start_ms,
-              static_cast<double>(builder.columns().memory_bytes()) * 1e-6);
-  start_ms = cpu_ms();
-  const auto grids = builder.grids();
-  std::printf("%d x %d cells, %zu grids: %.0f ms, %.0f MB more than the map's\n",
-              grids.front().box.width(), grids.front().box.height(), grids.size(),
-              cpu_ms() - start_ms, resident_mb() - before_mb);
-  ChangedBlocks free_changed = changed_about(large.free.passed, 100.0, 75.0);
-  const ChangedBlocks changed = changed_about(large.map.occupied, 100.0, 75.0);
-  start_ms = cpu_ms();
-  builder.follow(large.map, changed, large.free, free_changed);
-  const double follow_ms = cpu_ms() - start_ms;
-  const auto again = builder.grids();
-  std::printf("a cloud's change: columns %.0f ms, with grids %.0f ms; free cells %ld\n", follow_ms,
-              cpu_ms() - start_ms,
-              static_cast<long>(std::ranges::count(again.front().cells, CellType::kFree)));
-}
-
 }  // namespace
 }  // namespace voxlist::bench
 
 int main(int argc, char** argv) {
   if (argc > 1 && std::strcmp(argv[1], "large") == 0) {
-    voxlist::bench::run_large();
+    voxlist::bench::run_large_floor();
     return 0;
   }
   const int first = argc > 1 ? std::atoi(argv[1]) : 1, last = argc > 2 ? std::atoi(argv[2]) : first;

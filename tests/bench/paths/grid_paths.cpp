@@ -31,6 +31,7 @@ planning::TypedGrid grid_of(const std::vector<PosedScan>& scans, const Body& bod
   planning::GridBuilder builder({robot});
   builder.take(map.map(), map.free_space());
   builder.drive(way);
+  builder.update();
   return builder.grids().at(0);
 }
 

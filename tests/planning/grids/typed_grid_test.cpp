@@ -21,8 +21,12 @@ const RobotProfile kLow = robot(0.4), kTall = robot(1.7);
 // A robot that drove at the middle of cell (1, 1).
 TypedGrid grid_of(const DrawnMap& drawn, const RobotProfile& robot, double height_m = 0.0) {
   const FloorColumns columns = drawn.columns();
-  const auto driven = driven_cells({{0.12, 0.12, height_m}});
-  return type_cells(columns, Ground(columns, driven, robot.step_m), robot);
+  DrivenCells driven;
+  driven.drive({{{0.12, 0.12, height_m}}});
+  Flood flood(robot.step_m);
+  flood.follow(columns, {}, driven, driven.take_changes());
+  const CellBox& all = *columns.bounds();
+  return type_cells(columns, Ground(columns, flood, all), robot, all);
 }
 
 class TypedFloor : public ::testing::Test {
@@ -179,6 +183,7 @@ TEST(TypedGrid, HasTheFloorBelowBaseWhereScansAreToldInTheScannersFrame) {
   GridBuilder builder({kTall});
   builder.take(drawn.map, drawn.free);
   builder.drive({{0.12, 0.12, 0.0}});
+  builder.update();
   EXPECT_EQ(builder.grids().front().at({20, 20}), CellType::kFree);
 }
 

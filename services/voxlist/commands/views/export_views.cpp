@@ -39,6 +39,7 @@ planning::GridBuilder builder_of(const StoredMap& map, const ViewOptions& option
   for (const StampedPose3& pose : map.poses) way.push_back(pose.pose.translation());
   builder.drive(std::move(way));
   builder.take(map.builder.map(), map.builder.free_space());
+  builder.update();
   return builder;
 }
 
@@ -63,7 +64,7 @@ void write_grids(const StoredMap& map, const ViewOptions& options, Console& cons
   const planning::GridBuilder builder = builder_of(map, options);
   if (builder.cells() > planning::kMostCells)
     throw io::FileError(options.map, "spans more than 512 x 512 m, which no grid does");
-  const std::vector<planning::TypedGrid> grids = builder.grids();
+  const std::vector<planning::TypedGrid>& grids = builder.grids();
   for (std::size_t i = 0; i < grids.size(); ++i)
     write_tiles(grids[i], builder.robots()[i].name, options, console);
 }
