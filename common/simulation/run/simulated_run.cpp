@@ -55,6 +55,12 @@ std::vector<MovingBody> others(const Building& building, const Trajectory& own,
   return robots;
 }
 
+// What the wheels feel of it. A tour takes long to plan: once, if that is enough.
+Trajectory felt(const Trajectory& truth, const Building& building, const SimulationConfig& config) {
+  if (config.carried.at_s.empty()) return truth;
+  return without_carries(motion(building, config), config.carried);
+}
+
 OdometryConfig scaled(OdometryConfig config, double errors) {
   config.distance_scale_sd *= errors;
   config.turn_scale_sd *= errors;
@@ -65,6 +71,8 @@ OdometryConfig scaled(OdometryConfig config, double errors) {
 
 double duration(const Trajectory& truth, const SimulationConfig& config) {
   if (config.duration_s > 0.0) return config.duration_s;
+  const bool stays_away = !config.carried.at_s.empty() && config.carried.back_at_s == 0.0;
+  if (stays_away) return config.carried.at_s.back() + kStanding_s;
   return truth.duration_s() > 0.0 ? truth.duration_s() : kStanding_s;
 }
 
@@ -82,8 +90,9 @@ SimulatedRun::SimulatedRun(const SimulationConfig& config)
 
 SimulatedRun::SimulatedRun(const SimulationConfig& config, const Building& building)
     : config_(config),
-      truth_(motion(building, config)),
-      odometry_(wheel_odometry(truth_, scaled(config.odometry, config.odometry_errors),
+      truth_(with_carries(motion(building, config), config.carried)),
+      odometry_(wheel_odometry(felt(truth_, building, config),
+                               scaled(config.odometry, config.odometry_errors),
                                static_cast<std::uint64_t>(config.seed))),
       duration_s_(duration(truth_, config)),
       world_(building,

@@ -5,6 +5,7 @@
 #include "voxlist/simulation/building/building.h"
 #include "voxlist/simulation/scanner/ideal_sweep.h"
 #include "voxlist/simulation/scanner/mirror_scanner.h"
+#include "voxlist/simulation/world/carried.h"
 #include "voxlist/simulation/world/people.h"
 #include "voxlist/simulation/world/robot.h"
 #include "voxlist/simulation/world/tour.h"
@@ -24,6 +25,7 @@ struct SimulationConfig {
   int seed = 1;
   double duration_s = 0.0;
   int stand_in_room = -1;
+  CarriedConfig carried;
   bool perfect_deskew = false;
   BuildingConfig building;
   PeopleConfig people;
@@ -45,6 +47,16 @@ struct SimulationConfig {
       86'400.0);
     v("stand_in_room", stand_in_room, "stands in the middle of this room; -1: drives the tour", -1,
       99);
+    v("carried_at_s", carried.at_s,
+      "at each of these times of the run somebody puts the robot elsewhere, where it then stands; "
+      "its wheels measure nothing of it",
+      0.0, 86'400.0);
+    v("carried_x_m", carried.x_m,
+      "where to, in the building (the start is its origin, the corridor its x), one for each time",
+      -1000.0, 1000.0);
+    v("carried_y_m", carried.y_m, "and y", -1000.0, 1000.0);
+    v("put_back_at_s", carried.back_at_s,
+      "it is put back where it was carried off, and drives on; 0: never", 0.0, 86'400.0);
     v("wait_s", drive.wait_s, "stands at its start before it drives: time for the first cloud", 0.0,
       3600.0);
     v("building_seed", building.seed, "of the building", 0, 1'000'000'000);

@@ -70,6 +70,40 @@ TEST(SimulatedRun, StartsAtTheIdentityAndGoesSomewhere) {
   EXPECT_GT(distance_m(run.truth.back().pose, {}), 0.5);
 }
 
+TEST(SimulatedRun, CarriesTheRobotOffAndTheWheelsMeasureNothingOfIt) {
+  SimulationConfig config = five_seconds();
+  config.carried = {{2.0, 4.0}, {3.0, 1.0}, {0.5, -0.5}, 0.0};
+  const Recording run = record(config);
+  ASSERT_EQ(run.truth.size(), 5u);
+  EXPECT_LT(distance_m(run.truth[1].pose, {}), 1.0) << "it drove until then";
+  EXPECT_EQ(run.truth[2].pose, (Pose2{3.0, 0.5, 0.0}));
+  EXPECT_EQ(run.truth[4].pose, (Pose2{1.0, -0.5, 0.0}));
+  const auto& measured = run.odometry;
+  EXPECT_EQ(measured.back().pose, measured[101].pose);
+  EXPECT_LT(distance_m(measured.back().pose, run.truth[1].pose), 0.2);
+}
+
+TEST(SimulatedRun, DrivesOnWhereTheRobotWasCarriedOff) {
+  SimulationConfig config = five_seconds();
+  const Recording undisturbed = record(config);
+  config.carried = {{2.0}, {30.0}, {0.5}, 4.0};
+  config.duration_s = 7.0;
+  const Recording run = record(config);
+  EXPECT_EQ(run.truth[2].pose, (Pose2{30.0, 0.5, 0.0}));
+  EXPECT_LT(distance_m(run.truth.back().pose, undisturbed.truth.back().pose), 0.02);
+  EXPECT_LT(distance_m(run.odometry.back().pose, run.truth.back().pose), 0.2);
+}
+
+TEST(SimulatedRun, RefusesCarriesWithoutAPlaceOrAnOrder) {
+  SimulationConfig config = five_seconds();
+  config.carried = {{2.0, 4.0}, {3.0}, {0.5, -0.5}, 0.0};
+  EXPECT_THROW(SimulatedRun run(config), std::invalid_argument);
+  config.carried = {{4.0, 2.0}, {3.0, 1.0}, {0.5, -0.5}, 0.0};
+  EXPECT_THROW(SimulatedRun run(config), std::invalid_argument);
+  config.carried = {{2.0}, {3.0}, {0.5}, 1.0};
+  EXPECT_THROW(SimulatedRun run(config), std::invalid_argument);
+}
+
 TEST(SimulatedRun, GivesTheSameBitsForASeed) {
   SimulationConfig config = five_seconds();
   const Recording first = record(config), second = record(config);
