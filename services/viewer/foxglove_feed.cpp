@@ -5,6 +5,7 @@
 #include <random>
 #include <voxlist/health_t.hpp>
 #include <voxlist/pixel_map_t.hpp>
+#include <voxlist/planar_lidar_t.hpp>
 #include <voxlist/pose_t.hpp>
 #include <voxlist/rigid_transform_t.hpp>
 
@@ -35,8 +36,11 @@ FoxgloveFeed::FoxgloveFeed(bus::Bus& bus, const std::vector<std::string>& robots
   };
   listen(bus::kOdometry);
   listen(bus::kMapOdom);
-  for (const std::string& robot : robots)
+  for (const std::string& robot : robots) {
     listen(bus::Channel<pixel_map_t>{("GRID_" + robot).c_str()});
+    for (const char* scan : {bus::kScanPrefix, bus::kScanFarPrefix})
+      listen(bus::Channel<planar_lidar_t>{(scan + robot).c_str()});
+  }
 }
 
 viewing::ForeignProtocol FoxgloveFeed::protocol(const std::vector<std::string>& origins) {

@@ -19,8 +19,8 @@ namespace voxlist::services {
 /// What the bus says, for Foxglove's and Lichtblick's clients on the page's port.
 class FoxgloveFeed {
  public:
-  /// Listens to the channels that only those clients are shown: odometry, and the grids of the
-  /// robots with these names. The bus must outlive it.
+  /// Listens to the channels that only those clients are shown: odometry, and grids and scans of
+  /// the robots with these names. The bus must outlive it.
   FoxgloveFeed(bus::Bus& bus, const std::vector<std::string>& robots);
 
   /// A message of a channel that the page is shown, too. Those that Foxglove has no type for mean
@@ -31,6 +31,10 @@ class FoxgloveFeed {
       converter_.take(channel.name, message);
   }
   void take(const bus::MapChange& change) { converter_.take(change); }
+  void take_space(const bus::MapChange& change) { converter_.take_space(change); }
+
+  /// Whether any of those clients looks at free space.
+  bool wants_space() { return converter_.wants_space(); }
 
   void tick(std::int64_t now_us) { converter_.tick(now_us); }
   void tell_time(std::int64_t now_us) { server_.tell_time(now_us); }

@@ -8,6 +8,7 @@
 #include <voxlist/map_update_t.hpp>
 #include <voxlist/obstacles_t.hpp>
 #include <voxlist/pixel_map_t.hpp>
+#include <voxlist/planar_lidar_t.hpp>
 #include <voxlist/pointcloud_t.hpp>
 #include <voxlist/pose_t.hpp>
 #include <voxlist/rigid_transform_t.hpp>
@@ -72,6 +73,7 @@ class Scene {
     say_map(second, cloud);
     say_obstacles();
     say_grids();
+    say_scans();
     say_health(second);
   }
 
@@ -104,6 +106,30 @@ class Scene {
     change.blocks =
         second == 0 ? bus::to_messages(map_) : bus::to_messages(map_, difference(before, map_));
     for (const map_update_t& message : bus::split_map(change)) add(bus::kMapUpdate.name, message);
+    say_space(change);
+  }
+
+  // Twice as many free cells as occupied ones, in halves of one block.
+  void say_space(bus::MapChange change) {
+    OccupancyMap cells{VoxelMap(0.08), VoxelMap(0.08)};
+    for (std::int32_t x = 0; x < 8; ++x)
+      for (std::int32_t y = 0; y < 6; ++y)
+        (y < 4 ? cells.passed : cells.occupied).insert({x, y, 0});
+    change.resolution = bus::resolution_of(cells);
+    change.base_version = bus::kWholeMap;
+    change.blocks = bus::to_messages(cells);
+    for (const map_update_t& message : bus::split_map(change)) add(bus::kFreeSpace.name, message);
+  }
+
+  void say_scans() {
+    planar_lidar_t scan{};
+    scan.utime = utime_us_;
+    scan.rad0 = -1.0F;
+    scan.radstep = 0.5F;
+    scan.ranges = {1.0F, 2.0F, 3.0F, 4.0F, 5.0F};
+    scan.nranges = static_cast<std::int32_t>(scan.ranges.size());
+    add("SCAN_low", scan);
+    add("SCAN_FAR_low", scan);
   }
 
   void say_obstacles() {
@@ -115,6 +141,11 @@ class Scene {
     message.n_cells = 3;
     message.cells = {{1.F, 0.F}, {1.F, 0.5F}, {2.F, 0.F}};
     message.types = {obstacles_t::OBSTACLE, obstacles_t::OVERHANG, obstacles_t::NEGATIVE};
+    message.moving.resize(1);
+    message.moving[0].position[0] = 2.0F;
+    message.moving[0].velocity[1] = 0.5F;
+    message.moving[0].radius_m = 0.3F;
+    message.n_moving = 1;
     add(bus::kObstacles.name, message);
   }
 

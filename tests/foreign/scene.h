@@ -22,7 +22,8 @@ inline constexpr int kGridColumns = 6, kGridRows = 4;
 
 /// What the services say of a robot that drives for kSeconds through a room, 0.5 m a second, while
 /// its map grows: CLOUD, CLOUD_SLICE, POSE, ODOMETRY, TRUTH, T_MAP_ODOM, LOCALISATION, MAP_UPDATE,
-/// OBSTACLES, GRID_low, TRAVERSABILITY_low (compressed) and HEALTH, once a second each.
+/// FREE_SPACE, OBSTACLES with something that moves, GRID_low, TRAVERSABILITY_low (compressed),
+/// SCAN_low, SCAN_FAR_low and HEALTH, once a second each.
 std::vector<SceneMessage> scene();
 
 /// Points of the cloud of each second, and where the robot is then.

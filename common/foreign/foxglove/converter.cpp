@@ -1,10 +1,12 @@
 #include "voxlist/foreign/foxglove/converter.h"
 
 #include <voxlist/health_t.hpp>
+#include <voxlist/keyframe_t.hpp>
 #include <voxlist/localisation_t.hpp>
 #include <voxlist/map_update_t.hpp>
 #include <voxlist/obstacles_t.hpp>
 #include <voxlist/pixel_map_t.hpp>
+#include <voxlist/planar_lidar_t.hpp>
 #include <voxlist/pointcloud_t.hpp>
 #include <voxlist/pose_t.hpp>
 #include <voxlist/rigid_transform_t.hpp>
@@ -20,13 +22,15 @@ namespace {
 
 const Topic kMap{"/map", Kind::kPointCloud}, kPath{"/path", Kind::kPointCloud},
     kCloud{"/cloud", Kind::kPointCloud}, kCloudSlice{"/cloud_slice", Kind::kPointCloud},
+    kSpace{"/free_space", Kind::kPointCloud}, kMovers{"/moving_obstacles", Kind::kSceneUpdate},
     kObstacles{"/obstacles", Kind::kPointCloud}, kCandidates{"/candidates", Kind::kPosesInFrame},
     kCandidatePoints{"/candidate_points", Kind::kPointCloud}, kPose{"/pose", Kind::kPoseInFrame},
     kOdometry{"/odometry", Kind::kPoseInFrame}, kTruth{"/truth", Kind::kPoseInFrame},
     kTransforms{"/tf", Kind::kFrameTransform}, kLocalisation{"/localisation", Kind::kLog},
     kHealth{"/health", Kind::kLog};
 
-constexpr std::string_view kGridPrefix = "GRID_", kTypesPrefix = "TRAVERSABILITY_";
+constexpr std::string_view kGridPrefix = "GRID_", kTypesPrefix = "TRAVERSABILITY_",
+                           kScanPrefix = "SCAN_", kFarScanPrefix = "SCAN_FAR_";
 
 // Points of the path are this far apart (m), and at most so many: 100 km.
 constexpr double kPathStep_m = 0.1;
@@ -49,6 +53,7 @@ Converter::Converter(Audience& audience, const ConverterConfig& config)
       map_(config.map_detail_m),
       map_retelling_(config.retelling),
       path_retelling_(config.retelling),
+      space_retelling_(config.retelling),
       path_{point_fields(), {}} {}
 
 template <class M>
@@ -70,10 +75,13 @@ void Converter::take(const std::string& channel, bus::Bytes bytes) {
       {bus::kMapOdom.name, &Converter::decode<rigid_transform_t>},
       {bus::kLocalisation.name, &Converter::decode<localisation_t>},
       {bus::kMapUpdate.name, &Converter::decode<map_update_t>},
+      {bus::kFreeSpace.name, &Converter::decode<map_update_t>},
+      {bus::kKeyframe.name, &Converter::decode<keyframe_t>},
       {bus::kObstacles.name, &Converter::decode<obstacles_t>},
       {bus::kHealth.name, &Converter::decode<health_t>}};
   if (channel.starts_with(kGridPrefix)) return decode<pixel_map_t>(channel, bytes);
   if (channel.starts_with(kTypesPrefix)) return decode<traversability_t>(channel, bytes);
+  if (channel.starts_with(kScanPrefix)) return decode<planar_lidar_t>(channel, bytes);
   const auto known = kKnown.find(channel);
   if (known != kKnown.end()) (this->*known->second)(channel, bytes);
 }
@@ -136,6 +144,15 @@ void Converter::take(const std::string& channel, const localisation_t& message) 
 void Converter::take(const std::string& channel, const obstacles_t& message) {
   if (audience_.wants(kObstacles))
     tell(kObstacles, message.utime, obstacles_message(message), channel);
+  if (audience_.wants(kMovers)) tell(kMovers, message.utime, movers_message(message), channel);
+}
+
+void Converter::take(const std::string& channel, const planar_lidar_t& message) {
+  const bool is_far = channel.starts_with(kFarScanPrefix);
+  const std::string name = is_far ? "/scan_far/" + after(kFarScanPrefix, channel)
+                                  : "/scan/" + after(kScanPrefix, channel);
+  const Topic topic{name, Kind::kLaserScan};
+  if (audience_.wants(topic)) tell(topic, message.utime, scan_message(message), channel);
 }
 
 void Converter::take(const std::string& channel, const pixel_map_t& message) {
@@ -158,13 +175,31 @@ void Converter::take(const std::string& channel, const health_t& message) {
   tell(kHealth, message.utime, health_message(message), channel);
 }
 
+void Converter::take(const std::string& channel, const keyframe_t& message) {
+  const auto keyframe = bus::from_message(message);
+  if (!keyframe) return tell(kMap, 0, std::nullopt, channel);
+  map_retelling_.add(map_.add(*keyframe));
+  tick(message.utime);
+}
+
 void Converter::take(const std::string& channel, const map_update_t& message) {
   const bus::MapFault fault = bus::fault_of(message);
   if (fault != bus::MapFault::kNone) {
     ++faults_[channel + "/" + bus::name(fault)];
     return;
   }
-  for (const bus::MapChange& change : assembler_.add(message)) take(change);
+  if (channel == bus::kFreeSpace.name) {
+    for (const bus::MapChange& change : space_assembler_.add(message)) take_space(change);
+  } else {
+    for (const bus::MapChange& change : assembler_.add(message)) take(change);
+  }
+}
+
+bool Converter::wants_space() { return audience_.wants(kSpace); }
+
+void Converter::take_space(const bus::MapChange& change) {
+  space_retelling_.add(space_.apply(change));
+  tick(change.utime_us);
 }
 
 void Converter::take(const bus::MapChange& change) {
@@ -181,6 +216,7 @@ void Converter::tick(std::int64_t utime_us) {
   if (map_retelling_.is_due(map_.blocks(), utime_us) && audience_.wants(kMap)) tell_map();
   const std::size_t points = path_.data.size() / stride_of(path_.fields);
   if (path_retelling_.is_due(points, utime_us) && audience_.wants(kPath)) tell_path(utime_us);
+  if (space_retelling_.is_due(space_.blocks(), utime_us) && wants_space()) tell_space();
 }
 
 void Converter::tell_map() {
@@ -193,7 +229,14 @@ void Converter::tell_path(std::int64_t utime_us) {
   path_retelling_.told(utime_us);
 }
 
+void Converter::tell_space() {
+  const Stamp stamp{space_.utime_us(), kMapFrame};
+  audience_.tell(kSpace, stamp.utime_us, point_cloud(stamp, space_.points()));
+  space_retelling_.told(stamp.utime_us);
+}
+
 void Converter::tell_rest() {
+  if (space_retelling_.is_new()) tell_space();
   if (map_retelling_.is_new()) tell_map();
   if (path_retelling_.is_new()) tell_path(path_utime_us_);
 }

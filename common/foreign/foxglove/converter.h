@@ -11,6 +11,7 @@
 #include "voxlist/foreign/foxglove/audience.h"
 #include "voxlist/foreign/foxglove/map_points.h"
 #include "voxlist/foreign/foxglove/retelling.h"
+#include "voxlist/foreign/foxglove/space_points.h"
 
 namespace voxlist::foreign {
 
@@ -39,16 +40,24 @@ class Converter {
   void take(const std::string& channel, const obstacles_t& message);
   void take(const std::string& channel, const pixel_map_t& message);
   void take(const std::string& channel, const traversability_t& message);
+  void take(const std::string& channel, const planar_lidar_t& message);
   void take(const std::string& channel, const health_t& message);
+  void take(const std::string& channel, const keyframe_t& message);
 
-  /// Changes of the map from whoever put them together. MAP_UPDATE itself is put together here.
+  /// Changes of the map, and of free space, from whoever put them together. MAP_UPDATE and
+  /// FREE_SPACE themselves are put together here.
   void take(const std::string& channel, const map_update_t& message);
   void take(const bus::MapChange& change);
+  void take_space(const bus::MapChange& change);
 
-  /// Tells map and path where they are due: they may have changed while nobody wanted them.
+  /// Whether anybody looks at free space, which is told by take_space().
+  bool wants_space();
+
+  /// Tells map, path and free space where they are due: they may have changed while nobody wanted
+  /// them.
   void tick(std::int64_t utime_us);
 
-  /// Tells map and path once more, if anything of them is new. For the end.
+  /// Tells them once more, if anything of them is new. For the end.
   void tell_rest();
 
   /// Messages that were left out, by channel and reason.
@@ -69,11 +78,13 @@ class Converter {
   void follow(std::int64_t utime_us, const Pose3& T_map_base);
   void tell_map();
   void tell_path(std::int64_t utime_us);
+  void tell_space();
 
   Audience& audience_;
-  bus::MapAssembler assembler_;
+  bus::MapAssembler assembler_, space_assembler_;
   MapPoints map_;
-  Retelling map_retelling_, path_retelling_;
+  SpacePoints space_;
+  Retelling map_retelling_, path_retelling_, space_retelling_;
   Packed path_;
   std::optional<Eigen::Vector3d> path_end_;
   std::int64_t path_utime_us_ = 0;

@@ -1,10 +1,11 @@
 #include "voxlist/foreign/foxglove/messages.h"
 
-#include <foxglove.pb.h>
 #include <google/protobuf/descriptor.pb.h>
 
 #include <algorithm>
 #include <bit>
+
+#include "voxlist/foreign/foxglove/message_parts.h"
 
 namespace voxlist::foreign {
 namespace {
@@ -25,6 +26,10 @@ const Descriptor& descriptor_of(Kind kind) {
       return *foxglove::FrameTransform::descriptor();
     case Kind::kGrid:
       return *foxglove::Grid::descriptor();
+    case Kind::kLaserScan:
+      return *foxglove::LaserScan::descriptor();
+    case Kind::kSceneUpdate:
+      return *foxglove::SceneUpdate::descriptor();
     case Kind::kLog:
       break;
   }
@@ -35,37 +40,6 @@ const Descriptor& descriptor_of(Kind kind) {
 void add_with_imports(const FileDescriptor& file, FileDescriptorSet& to) {
   for (int i = 0; i < file.dependency_count(); ++i) add_with_imports(*file.dependency(i), to);
   file.CopyTo(to.add_file());
-}
-
-void set_time(std::int64_t utime_us, google::protobuf::Timestamp& to) {
-  to.set_seconds(utime_us / 1'000'000);
-  to.set_nanos(static_cast<int>(utime_us % 1'000'000) * 1000);
-}
-
-template <class M>
-void set_stamp(const Stamp& stamp, M& to) {
-  set_time(stamp.utime_us, *to.mutable_timestamp());
-  to.set_frame_id(stamp.frame);
-}
-
-void set(const Eigen::Vector3d& from, foxglove::Vector3& to) {
-  to.set_x(from.x());
-  to.set_y(from.y());
-  to.set_z(from.z());
-}
-
-void set(const Eigen::Quaterniond& from, foxglove::Quaternion& to) {
-  to.set_x(from.x());
-  to.set_y(from.y());
-  to.set_z(from.z());
-  to.set_w(from.w());
-}
-
-Eigen::Quaterniond turn_of(const Pose3& pose) { return Eigen::Quaterniond(pose.linear()); }
-
-void set(const Pose3& from, foxglove::Pose& to) {
-  set(from.translation(), *to.mutable_position());
-  set(turn_of(from), *to.mutable_orientation());
 }
 
 std::uint32_t size_of(PackedField::Type type) { return type == PackedField::Type::kUint8 ? 1 : 4; }
@@ -113,9 +87,10 @@ std::uint32_t stride_of(const std::vector<PackedField>& fields) {
   return stride;
 }
 
+static_assert(std::endian::native == std::endian::little, "numbers are packed as they lie");
+
 void pack(float value, Packed& to) {
-  const auto bits = std::bit_cast<std::uint32_t>(value);
-  for (int shift = 0; shift < 32; shift += 8) to.data += static_cast<char>((bits >> shift) & 0xFF);
+  to.data.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
 void pack(std::uint8_t value, Packed& to) { to.data += static_cast<char>(value); }

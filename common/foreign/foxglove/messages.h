@@ -9,7 +9,16 @@
 namespace voxlist::foreign {
 
 /// The kinds of Foxglove's messages that are written here.
-enum class Kind { kPointCloud, kPoseInFrame, kPosesInFrame, kFrameTransform, kGrid, kLog };
+enum class Kind {
+  kPointCloud,
+  kPoseInFrame,
+  kPosesInFrame,
+  kFrameTransform,
+  kGrid,
+  kLaserScan,
+  kSceneUpdate,
+  kLog
+};
 
 /// The type's full name, such as foxglove.PointCloud.
 std::string name_of(Kind kind);
@@ -51,6 +60,18 @@ struct PackedGrid {
   Packed cells;
 };
 
+/// Beams of a 2D laser in a frame's x-y plane, evenly spaced (rad, m).
+struct Beams {
+  double first_rad = 0.0, step_rad = 0.0;
+  const std::vector<float>& ranges_m;
+};
+
+/// Something that moves: a post with an arrow as long as it goes in a second.
+struct Mover {
+  Eigen::Vector2d position, velocity_mps;
+  double radius_m = 0.0;
+};
+
 /// The text without what is no ASCII: others refuse what is no UTF-8, and who sends it may send
 /// anything.
 std::string ascii(std::string text);
@@ -65,6 +86,9 @@ std::string poses_in_frame(const Stamp& stamp, const std::vector<Pose3>& poses);
 /// T_frame_child.
 std::string frame_transform(const Stamp& stamp, const std::string& child, const Pose3& transform);
 std::string grid(const Stamp& stamp, const PackedGrid& grid);
+std::string laser_scan(const Stamp& stamp, const Beams& beams);
+/// All that move now; they are gone `lifetime_us` later.
+std::string movers(const Stamp& stamp, const std::vector<Mover>& all, std::int64_t lifetime_us);
 std::string log_line(std::int64_t utime_us, Level level, const std::string& name,
                      const std::string& message);
 

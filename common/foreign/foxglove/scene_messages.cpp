@@ -10,6 +10,7 @@
 #include <voxlist/localisation_t.hpp>
 #include <voxlist/obstacles_t.hpp>
 #include <voxlist/pixel_map_t.hpp>
+#include <voxlist/planar_lidar_t.hpp>
 #include <voxlist/pose_t.hpp>
 #include <voxlist/rigid_transform_t.hpp>
 #include <voxlist/traversability_t.hpp>
@@ -24,6 +25,9 @@ using Type = PackedField::Type;
 
 // Most cells of a grid: 800 x 800 m at 0.1 m. A forged size must not take a robot's memory.
 constexpr std::int64_t kMostCells = 64'000'000;
+
+// OBSTACLES comes 10 times a second, or with each cloud: what moves is shown this long (us).
+constexpr std::int64_t kMoversLifetime_us = 1'000'000;
 
 // How far from the map's origin a candidate may be (m), as all positions.
 bool is_near(double value) { return std::abs(value) <= bus::kMaxPosition_m; }
@@ -153,6 +157,26 @@ std::optional<std::string> obstacles_message(const obstacles_t& message) {
     pack(static_cast<std::uint8_t>(message.types[i]), points);
   }
   return point_cloud({message.utime, kBaseFrame}, points);
+}
+
+std::optional<std::string> movers_message(const obstacles_t& message) {
+  if (!bus::is_sane_utime(message.utime)) return std::nullopt;
+  std::vector<Mover> all;
+  for (const moving_obstacle_t& m : message.moving) {
+    const auto is_sane = [](float value) { return is_near(value); };
+    if (!std::ranges::all_of(m.position, is_sane) || !std::ranges::all_of(m.velocity, is_sane) ||
+        !is_near(m.radius_m))
+      return std::nullopt;
+    all.push_back({{m.position[0], m.position[1]}, {m.velocity[0], m.velocity[1]}, m.radius_m});
+  }
+  return movers({message.utime, kBaseFrame}, all, kMoversLifetime_us);
+}
+
+std::optional<std::string> scan_message(const planar_lidar_t& message) {
+  const auto is_sane = [](float rad) { return std::abs(rad) < 100.0F; };
+  if (!bus::is_sane_utime(message.utime) || !is_sane(message.rad0) || !is_sane(message.radstep))
+    return std::nullopt;
+  return laser_scan({message.utime, kBaseFrame}, {message.rad0, message.radstep, message.ranges});
 }
 
 std::optional<std::string> grid_message(const pixel_map_t& message) {

@@ -13,6 +13,7 @@ class health_t;
 class localisation_t;
 class obstacles_t;
 class pixel_map_t;
+class planar_lidar_t;
 class rigid_transform_t;
 class traversability_t;
 }  // namespace voxlist
@@ -44,6 +45,12 @@ std::optional<std::string> obstacles_message(const obstacles_t& message);
 /// they are (traversability_t).
 std::optional<std::string> grid_message(const pixel_map_t& message);
 std::optional<std::string> grid_message(const traversability_t& message);
+
+/// What moves, as posts that are gone when OBSTACLES no longer tells of them.
+std::optional<std::string> movers_message(const obstacles_t& message);
+
+/// A 2D scan in base. A beam without a return has no number there: NaN, or +infinity.
+std::optional<std::string> scan_message(const planar_lidar_t& message);
 
 std::string health_message(const health_t& message);
 

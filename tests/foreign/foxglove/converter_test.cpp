@@ -4,13 +4,16 @@
 #include <gmock/gmock.h>
 #include <google/protobuf/descriptor.pb.h>
 
+#include <cmath>
 #include <cstring>
 #include <map>
 #include <random>
 #include <set>
+#include <voxlist/keyframe_t.hpp>
 #include <voxlist/pixel_map_t.hpp>
 
 #include "tests/foreign/scene.h"
+#include "voxlist/bus/convert.h"
 
 namespace voxlist::foreign {
 namespace {
@@ -73,10 +76,11 @@ TEST_F(AConverter, TellsEveryTopicThatTheReadmeHas) {
   take_scene();
   std::set<std::string> topics;
   for (const auto& [topic, messages] : listener_.told) topics.insert(topic);
-  EXPECT_EQ(topics, (std::set<std::string>{"/map", "/path", "/pose", "/truth", "/odometry", "/tf",
-                                           "/cloud", "/cloud_slice", "/candidates",
-                                           "/candidate_points", "/localisation", "/obstacles",
-                                           "/grid/low", "/traversability/low", "/health"}));
+  EXPECT_EQ(topics, (std::set<std::string>{
+                        "/map", "/path", "/pose", "/truth", "/odometry", "/tf", "/cloud",
+                        "/cloud_slice", "/candidates", "/candidate_points", "/localisation",
+                        "/obstacles", "/grid/low", "/traversability/low", "/health", "/free_space",
+                        "/moving_obstacles", "/scan/low", "/scan_far/low"}));
 }
 
 TEST_F(AConverter, KeepsEveryPointOfACloud) {
@@ -183,6 +187,63 @@ TEST_F(AConverter, TellsObstaclesWithTheirTypes) {
   EXPECT_EQ(type.name(), "type");
   for (std::size_t i = 0; i < 3; ++i)
     EXPECT_EQ(static_cast<std::size_t>(cloud.data()[i * cloud.point_stride() + type.offset()]), i);
+}
+
+TEST_F(AConverter, TellsWhatMovesAsPostsWithAnArrow) {
+  take_scene();
+  const auto update = listener_.messages<foxglove::SceneUpdate>("/moving_obstacles")[0];
+  ASSERT_EQ(update.entities_size(), 1);
+  const auto& entity = update.entities(0);
+  EXPECT_EQ(entity.frame_id(), "base");
+  EXPECT_EQ(entity.lifetime().seconds(), 1);
+  ASSERT_EQ(entity.cylinders_size(), 1);
+  EXPECT_DOUBLE_EQ(entity.cylinders(0).pose().position().x(), 2.0);
+  EXPECT_NEAR(entity.cylinders(0).size().x(), 0.6, 1e-6);
+  ASSERT_EQ(entity.arrows_size(), 1);
+  EXPECT_DOUBLE_EQ(entity.arrows(0).shaft_length(), 0.5);
+  EXPECT_NEAR(entity.arrows(0).pose().orientation().z(), std::sqrt(0.5), 1e-9) << "to the left";
+}
+
+TEST_F(AConverter, TellsScansWithTheirBearings) {
+  take_scene();
+  for (const char* topic : {"/scan/low", "/scan_far/low"}) {
+    const auto scan = listener_.messages<foxglove::LaserScan>(topic)[0];
+    EXPECT_EQ(scan.frame_id(), "base");
+    EXPECT_DOUBLE_EQ(scan.start_angle(), -1.0);
+    EXPECT_DOUBLE_EQ(scan.end_angle(), 1.0);
+    ASSERT_EQ(scan.ranges_size(), 5);
+    EXPECT_DOUBLE_EQ(scan.ranges(4), 5.0);
+  }
+}
+
+TEST_F(AConverter, TellsFreeAndOccupiedSpaceInCellsTwiceAsLarge) {
+  take_scene();
+  const auto space = listener_.messages<foxglove::PointCloud>("/free_space").back();
+  ASSERT_EQ(points_in(space), 4 * 2 + 4);
+  const auto& occupied = space.fields(space.fields_size() - 1);
+  EXPECT_EQ(occupied.name(), "occupied");
+  int count = 0;
+  for (std::size_t i = 0; i < 12; ++i)
+    count += space.data()[i * space.point_stride() + occupied.offset()];
+  EXPECT_EQ(count, 4);
+  EXPECT_FLOAT_EQ(number_at(space.data(), 0), 0.08F);
+}
+
+TEST_F(AConverter, MakesTheMapOfKeyframesWhereNobodyTellsIt) {
+  bus::PosedCloud keyframe;
+  keyframe.index = 0;
+  keyframe.cloud.utime_us = test::kSceneStart_us;
+  keyframe.cloud.points = {{1.0F, 0.0F, 0.0F}, {2.0F, 0.0F, 0.0F}};
+  keyframe.T_map_base.translation().y() = 5.03;
+  converter_.take("KEYFRAME", bus::to_message(keyframe));
+  keyframe.T_map_base.translation().y() = 7.03;  // moved since
+  converter_.take("KEYFRAME", bus::to_message(keyframe));
+  converter_.tell_rest();
+  const auto map = listener_.messages<foxglove::PointCloud>("/map").back();
+  ASSERT_EQ(points_in(map), 2);
+  EXPECT_NEAR(number_at(map.data(), 4), 7.05, 0.051);
+  take_scene();  // has MAP_UPDATE
+  EXPECT_GT(points_in(listener_.messages<foxglove::PointCloud>("/map").back()), 100);
 }
 
 TEST_F(AConverter, TellsGridsCompressedOrNot) {

@@ -24,5 +24,5 @@ export function points_in(cloud) {
 }
 
 /** The topics of the scene (tests/foreign/scene.h). */
-export const topics = ["/candidate_points", "/candidates", "/cloud", "/cloud_slice", "/grid/low", "/health", "/localisation",
-  "/map", "/obstacles", "/odometry", "/path", "/pose", "/tf", "/traversability/low", "/truth"];
+export const topics = ["/candidate_points", "/candidates", "/cloud", "/cloud_slice", "/free_space", "/grid/low", "/health",
+  "/localisation", "/map", "/moving_obstacles", "/obstacles", "/odometry", "/path", "/pose", "/scan/low", "/scan_far/low", "/tf", "/traversability/low", "/truth"];

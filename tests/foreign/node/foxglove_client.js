@@ -44,6 +44,9 @@ function finish() {
   check("the map has the building's voxels", points_in(last.get("/map")) > 1000, points_in(last.get("/map")));
   check("a cloud has points", points_in(last.get("/cloud")) > 0);
   check("a grid has its cells", last.get("/grid/low").data.length === 24);
+  check("free space has free and occupied cells", points_in(last.get("/free_space")) > 10_000, points_in(last.get("/free_space")));
+  check("what moves is a post with an arrow", last.get("/moving_obstacles").entities[0].arrows.length === 1);
+  check("a scan has its beams", last.get("/scan/low").ranges.length === 5);
   check("the time is now", Math.abs(Number(time / 1_000_000n) - Date.now()) < 60_000 * slower);
   client.off("close");
   process.exit(0);

@@ -5,7 +5,7 @@ import { decompress } from "fzstd";
 import { readFileSync } from "node:fs";
 import { check, decoder, points_in, topics } from "./decode.js";
 
-const seconds = 20, raw_channels = 12;
+const seconds = 20, raw_channels = 15;
 const file = readFileSync(process.argv[2]);
 const reader = await McapIndexedReader.Initialize({
   readable: { size: async () => BigInt(file.length), read: async (at, size) => file.subarray(Number(at), Number(at + size)) },
