@@ -1,6 +1,7 @@
 #include "voxlist/viewing/bus_feed.h"
 
 #include <voxlist/health_t.hpp>
+#include <voxlist/keyframe_t.hpp>
 #include <voxlist/localisation_t.hpp>
 #include <voxlist/map_edits_t.hpp>
 #include <voxlist/map_octree_t.hpp>
@@ -25,6 +26,7 @@ BusFeed::BusFeed(bus::Bus& bus, RobotScene& scene, const std::vector<std::string
   show(bus::kObstacles);
   show(bus::kHealth);
   show(bus::kOctomap);
+  show(bus::kKeyframe);
   for (const std::string& robot : robots) {
     const std::string channel = "TRAVERSABILITY_" + robot;
     show(bus::Channel<traversability_t>{channel.c_str()});

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace voxlist::viewing {
@@ -41,14 +42,28 @@ void Viewer::forget_map(std::int64_t now_us) {
 
 void Viewer::start_over() {
   forget_map(0);
+  forget_space();
   scene_.clear();
   scene_.board().put("rewound", "{}", 0);
 }
 
 void Viewer::tick() {
   levels_.refresh(kWorkOfATick);
-  for (const MapLevels::Changed& changed : levels_.take_changed())
+  for (const ChangedBlock& changed : levels_.take_changed())
     for (auto& [number, client] : clients_) client.add(changed);
+  for (const ChangedBlock& changed : space_.take_changed())
+    for (auto& [number, client] : clients_) client.add_space(changed);
+}
+
+bool Viewer::is_space_wanted() const {
+  return std::ranges::any_of(clients_, [](const auto& c) { return c.second.wants_space(); });
+}
+
+void Viewer::hear(int client, std::string_view text) {
+  const auto found = clients_.find(client);
+  if (found == clients_.end()) return;
+  if (text == "space on") found->second.want_space(true);
+  if (text == "space off") found->second.want_space(false);
 }
 
 int Viewer::open() {
@@ -59,7 +74,7 @@ int Viewer::open() {
 std::optional<Frame> Viewer::next(int client, std::int64_t now_us) {
   const auto found = clients_.find(client);
   if (found == clients_.end()) return std::nullopt;
-  return found->second.next(scene_.board(), levels_, now_us);
+  return found->second.next({scene_.board(), levels_, space_}, now_us);
 }
 
 }  // namespace voxlist::viewing

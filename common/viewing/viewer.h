@@ -4,8 +4,10 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "voxlist/viewing/blocks/map_levels.h"
+#include "voxlist/viewing/blocks/space_levels.h"
 #include "voxlist/viewing/client.h"
 #include "voxlist/viewing/scene/frame.h"
 #include "voxlist/viewing/scene/robot_scene.h"
@@ -40,6 +42,13 @@ class Viewer {
 
   void take(const bus::MapChange& change, std::int64_t now_us);
 
+  /// FREE_SPACE's changes, and that there are none any more.
+  void take_space(const bus::MapChange& change) { space_.apply(change); }
+  void forget_space() { space_.forget(); }
+
+  /// Whether any page looks at free and occupied space.
+  bool is_space_wanted() const;
+
   /// There is no map any more.
   void forget_map(std::int64_t now_us);
 
@@ -53,6 +62,9 @@ class Viewer {
   int open();
   void close(int client) { clients_.erase(client); }
 
+  /// What a client's page says: "space on" and "space off"; all else means nothing.
+  void hear(int client, std::string_view text);
+
   /// What the client is to be sent now; nothing: it has all.
   std::optional<Frame> next(int client, std::int64_t now_us);
 
@@ -60,6 +72,7 @@ class Viewer {
   void tell_map(const bus::MapChange& change, std::int64_t now_us);
 
   MapLevels levels_;
+  SpaceLevels space_;
   RobotScene scene_;
   std::map<int, Client> clients_;
   int last_client_ = 0;

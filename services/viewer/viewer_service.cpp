@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <variant>
 #include <voxlist/health_t.hpp>
+#include <voxlist/keyframe_t.hpp>
 #include <voxlist/localisation_t.hpp>
 #include <voxlist/map_edit_t.hpp>
 #include <voxlist/map_edits_t.hpp>
@@ -96,6 +97,14 @@ void ViewerService::subscribe(const planning::RobotProfiles& robots) {
     show(bus::Channel<traversability_t>{channel.c_str()});
   }
   bus_.subscribe(bus::kMapUpdate, [this](const map_update_t& m) { take(m); });
+  bus_.subscribe(bus::kFreeSpace, [this](const map_update_t& m) {
+    if (!space_follower_) return;
+    for (const bus::MapChange& change : space_follower_->take(m)) {
+      viewer_.take_space(change);
+      foxglove_.take_space(change);
+    }
+  });
+  bus_.subscribe(bus::kKeyframe, [this](const keyframe_t& m) { viewer_.scene().take(m, now_us_); });
   bus_.subscribe(bus::kCloud, [this](const pointcloud_t& m) {
     viewer_.scene().take_cloud(m, now_us_);
     foxglove_.take(bus::kCloud, m);
@@ -119,6 +128,7 @@ void ViewerService::take(const map_update_t& message) {
 void ViewerService::tick(std::int64_t now_us) {
   now_us_ = now_us;
   follow_map();
+  follow_space();
   viewer_.tick();
   foxglove_.tick(now_us);
   if (!told_us_ || now_us - *told_us_ >= kTimePeriod_us) tell_time();
@@ -129,10 +139,24 @@ void ViewerService::tick(std::int64_t now_us) {
 void ViewerService::follow_map() {
   if (const auto wanted = follower_.tick(now_us_)) bus_.publish(bus::kMapRequest, *wanted);
   if (!follower_.held()) return viewer_.forget_map(now_us_);
+  if (const auto first = viewer_.scene().keyframe_due(now_us_))
+    request(map_request_t::WANT_KEYFRAMES, *first);
   if (asked_edits_us_ && now_us_ - *asked_edits_us_ < kEditsPeriod_us) return;
   if (viewer_.scene().knows_edits()) return;
   asked_edits_us_ = now_us_;
   request(map_request_t::WANT_EDITS);
+}
+
+// What is free costs the mapper, the bus and this service something: it is asked for while somebody
+// looks at it.
+void ViewerService::follow_space() {
+  if (!viewer_.is_space_wanted() && !foxglove_.wants_space()) {
+    space_follower_.reset();
+    return viewer_.forget_space();
+  }
+  if (!space_follower_) space_follower_.emplace(health_, service::kFreeSpaceSource);
+  if (const auto wanted = space_follower_->tick(now_us_)) bus_.publish(bus::kMapRequest, *wanted);
+  if (!space_follower_->held()) viewer_.forget_space();
 }
 
 void ViewerService::tell_time() {
@@ -151,10 +175,12 @@ void ViewerService::report() {
 }
 
 viewing::ServerOwner ViewerService::owner(const std::vector<std::string>& foxglove_origins) {
-  return {[this] { return viewer_.open(); }, [this](int client) { viewer_.close(client); },
+  return {[this] { return viewer_.open(); },
+          [this](int client) { viewer_.close(client); },
           [this](int client) { return viewer_.next(client, now_us_); },
           [this](const std::string& name, const std::string& json) { return obey(name, json); },
-          foxglove_.protocol(foxglove_origins)};
+          foxglove_.protocol(foxglove_origins),
+          [this](int client, std::string_view text) { viewer_.hear(client, text); }};
 }
 
 CommandAnswer ViewerService::obey(const std::string& name, const std::string& json) {
@@ -168,10 +194,11 @@ std::int64_t ViewerService::next_utime_us() {
   return last_utime_us_ = std::max(now_us_, last_utime_us_ + 1);
 }
 
-CommandAnswer ViewerService::request(std::int32_t want) {
+CommandAnswer ViewerService::request(std::int32_t want, std::int32_t first) {
   map_request_t message{};
   message.utime = next_utime_us();
   message.want = want;
+  message.first = first;
   bus_.publish(bus::kMapRequest, message);
   return {};
 }

@@ -73,6 +73,7 @@ class ViewerService {
   void show(bus::Channel<M> channel);
   void take(const map_update_t& message);
   void follow_map();
+  void follow_space();
   void tell_time();
   void report();
   viewing::ServerOwner owner(const std::vector<std::string>& foxglove_origins);
@@ -85,13 +86,15 @@ class ViewerService {
   viewing::CommandAnswer obey(const viewing::RecordCommand& command);
   viewing::CommandAnswer obey(const viewing::PlayCommand& command);
   viewing::CommandAnswer obey(const viewing::SeekCommand& command);
-  viewing::CommandAnswer request(std::int32_t want);
+  viewing::CommandAnswer request(std::int32_t want, std::int32_t first = 0);
   std::int64_t next_utime_us();
 
   bus::Bus& bus_;
   bus::Health& health_;
   viewing::Viewer viewer_;
   service::MapFollower follower_;
+  // Only while a page looks at free and occupied space.
+  std::optional<service::MapFollower> space_follower_;
   FoxgloveFeed foxglove_;
   Recorder recorder_;
   std::int64_t now_us_ = 0;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tests/viewing/blocks/map_change.h"
+#include "voxlist/bus/maps/map_convert.h"
 
 namespace voxlist::viewing {
 namespace {
@@ -29,10 +30,10 @@ struct Shown {
   // Topics of the frames that the client gets; blocks with their level.
   std::vector<std::string> all() {
     std::vector<std::string> topics;
-    while (const auto frame = client.next(board, levels, 3'000'000)) {
+    while (const auto frame = client.next({board, levels, space}, 3'000'000)) {
       const auto json = json_in(*frame);
       std::string topic = json.at("topic");
-      if (topic == "blocks") topic += json.at("data").at("level").dump();
+      if (topic == "blocks" || topic == "space") topic += json.at("data").at("level").dump();
       topics.push_back(topic);
       bytes += frame->size();
     }
@@ -41,11 +42,37 @@ struct Shown {
 
   Board board;
   MapLevels levels{0.05};
+  SpaceLevels space;
   Client client;
   std::size_t bytes = 0;
 };
 
 using Topics = std::vector<std::string>;
+
+bus::MapChange free_space() {
+  OccupancyMap cells{VoxelMap(0.08), VoxelMap(0.08)};
+  cells.passed.insert({1, 1, 1});
+  cells.occupied.insert({1, 1, 2});
+  bus::MapChange change;
+  change.map_id = change.version = 1;
+  change.resolution = bus::resolution_of(cells);
+  change.blocks = bus::to_messages(cells);
+  return change;
+}
+
+TEST(Client, GetsFreeAndOccupiedSpaceOnlyWhileItWantsThem) {
+  Shown shown;
+  shown.space.apply(free_space());
+  EXPECT_EQ(shown.all(), (Topics{"blocks1", "blocks0"}));
+  shown.client.want_space(true);
+  EXPECT_EQ(shown.all(), (Topics{"space0", "space1"}));
+  EXPECT_EQ(shown.all(), Topics{});
+  shown.client.want_space(false);
+  shown.client.add_space({kFreeCells, 0});
+  EXPECT_EQ(shown.all(), Topics{});
+  shown.client.want_space(true);
+  EXPECT_EQ(shown.all(), (Topics{"space0", "space1"}));
+}
 
 TEST(Client, GetsTheBoardThenCoarseThenFineBlocks) {
   Shown shown;
@@ -69,7 +96,7 @@ TEST(Client, GetsWhatChangedWhileItWasSlowOnceAndAsItIsNow) {
 TEST(Client, IsToldHowOldATopicIs) {
   Shown shown;
   shown.board.put("robot", "{}", 1'000'000);
-  const auto frame = shown.client.next(shown.board, shown.levels, 3'500'000);
+  const auto frame = shown.client.next({shown.board, shown.levels, shown.space}, 3'500'000);
   ASSERT_TRUE(frame);
   EXPECT_EQ(json_in(*frame).at("age_ms"), 2500);
 }

@@ -9,6 +9,21 @@
 
 namespace voxlist::viewing {
 
+std::optional<std::uint32_t> MapLevel::put(const Voxel& position, const VoxelBlock& bits,
+                                           std::uint32_t now_s) {
+  const bool is_known = positions.find(position) != Numbering<Voxel>::kNone;
+  if (!is_known && bits == VoxelBlock{}) return std::nullopt;
+  const std::uint32_t number = positions.number(position);
+  if (!is_known) {
+    blocks.emplace_back();
+    changed_s.emplace_back();
+  }
+  if (blocks[number] == bits) return std::nullopt;
+  blocks[number] = bits;
+  changed_s[number] = now_s;
+  return number;
+}
+
 // A whole map of the same id (loops were closed) is no other map: what is the same in it is not
 // sent again.
 void MapLevels::apply(const bus::MapChange& change) {
@@ -75,19 +90,9 @@ void MapLevels::refresh(std::size_t work) {
 void MapLevels::refresh_block(std::size_t which, const Voxel& block) {
   MapLevel& level = levels_[which];
   const VoxelBlock bits = resampled_block(map_.occupied, level.edge_m, block);
-  const bool is_known = level.positions.find(block) != Numbering<Voxel>::kNone;
-  if (!is_known && bits == VoxelBlock{}) return;
-  const std::uint32_t number = level.positions.number(block);
-  if (!is_known) {
-    level.blocks.emplace_back();
-    level.changed_s.emplace_back();
-  }
-  if (level.blocks[number] == bits) return;
-  level.blocks[number] = bits;
-  level.changed_s[number] = now_s_;
-  changed_.push_back({which, number});
+  if (const auto number = level.put(block, bits, now_s_)) changed_.push_back({which, *number});
 }
 
-std::vector<MapLevels::Changed> MapLevels::take_changed() { return std::exchange(changed_, {}); }
+std::vector<ChangedBlock> MapLevels::take_changed() { return std::exchange(changed_, {}); }
 
 }  // namespace voxlist::viewing

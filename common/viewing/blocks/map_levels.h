@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -25,6 +26,16 @@ struct MapLevel {
   std::vector<std::uint32_t> changed_s;
 
   std::uint32_t size() const { return static_cast<std::uint32_t>(blocks.size()); }
+
+  /// Sets a block, at the map's time `now_s`. Its number, if it is another one now.
+  std::optional<std::uint32_t> put(const Voxel& position, const VoxelBlock& bits,
+                                   std::uint32_t now_s);
+};
+
+/// A block whose content is another one now, with its level.
+struct ChangedBlock {
+  std::size_t level;
+  std::uint32_t number;
 };
 
 /// The map at two levels, kept in step with MAP_UPDATE. A change costs little when it comes; the
@@ -46,13 +57,8 @@ class MapLevels {
   /// Whether the levels show what the map holds.
   bool is_fresh() const { return stale_[kFine].empty() && stale_[kCoarse].empty(); }
 
-  /// Blocks whose content is another one now, with their level; each call tells what is new since
-  /// the last one.
-  struct Changed {
-    std::size_t level;
-    std::uint32_t number;
-  };
-  std::vector<Changed> take_changed();
+  /// Each call tells what is new since the last one.
+  std::vector<ChangedBlock> take_changed();
 
   const MapLevel& level(std::size_t which) const { return levels_[which]; }
   const VoxelMap& map() const { return map_.occupied; }
@@ -74,7 +80,7 @@ class MapLevels {
   std::uint32_t epoch_ = 0;
   std::array<MapLevel, kLevels> levels_;
   std::array<std::set<Voxel>, kLevels> stale_;
-  std::vector<Changed> changed_;
+  std::vector<ChangedBlock> changed_;
 };
 
 }  // namespace voxlist::viewing

@@ -40,10 +40,8 @@ export class Camera {
    */
   project(p) {
     const d = [p[0] - this.target[0], p[1] - this.target[1], p[2] - this.target[2]];
-    return [
-      this.width / 2 + this.scale * (d[0] * this.right[0] + d[1] * this.right[1]),
-      this.height / 2 - this.scale * (d[0] * this.up[0] + d[1] * this.up[1] + d[2] * this.up[2]),
-    ];
+    const [right, up] = [this.right, this.up].map((axis) => d[0] * axis[0] + d[1] * axis[1] + d[2] * axis[2]);
+    return [this.width / 2 + this.scale * right, this.height / 2 - this.scale * up];
   }
 
   /**
@@ -57,11 +55,8 @@ export class Camera {
     const a = (x - this.width / 2) / this.scale;
     const b = (this.height / 2 - y) / this.scale;
     const c = (b - (height_m - this.target[2]) * this.up[2]) / Math.sin(this.tilt_rad);
-    return [
-      this.target[0] + a * this.right[0] + c * this.ahead[0],
-      this.target[1] + a * this.right[1] + c * this.ahead[1],
-      height_m,
-    ];
+    const at = [0, 1].map((axis) => this.target[axis] + a * this.right[axis] + c * this.ahead[axis]);
+    return [at[0], at[1], height_m];
   }
 
   /**

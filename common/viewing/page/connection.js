@@ -44,9 +44,12 @@ export class Connection {
     ++this.frames;
     this.last_ms = performance.now();
     const told = { ...read_frame(buffer), heard_ms: this.bus_ms };
-    if (told.topic !== "blocks") this.topics.set(told.topic, told);
+    if (told.topic !== "blocks" && told.topic !== "space") this.topics.set(told.topic, told);
     this.hear(told);
   }
+
+  /** What the server is to know of this page; it forgets that when the line breaks. @param {string} text */
+  say = (text) => this.socket?.readyState === WebSocket.OPEN && this.socket.send(text);
 
   // A server that is stopped keeps its socket: another one is tried.
   watch() {

@@ -7,6 +7,7 @@ import { MapStore } from "./map_store.js";
 import { Overlay } from "./overlay.js";
 import { on_theme } from "./palette.js";
 import { element, show_map, show_services, show_state, toast } from "./panels.js";
+import { Space } from "./space.js";
 import { Timebar } from "./timebar.js";
 import { SplatRenderer } from "./splat.js";
 import { WebglRenderer } from "./webgl.js";
@@ -22,17 +23,19 @@ const look = { low: -0.5, high: 2.2, colour: "height" };
 const layers = new Set(["path", "cloud", "obstacles"]);
 const camera = new Camera();
 const map = new MapStore();
+const space = new Space();
 const grids = new Grids();
 let dirty = true, follows = false, fits = true, aged_ms = 0;
 
 const bus = new Connection((told) => {
   dirty = true;
   if (told.topic === "blocks") map.take(told.data, told.bytes);
+  else if (told.topic === "space") space.take(told.data, told.bytes);
   else if (told.topic === "map" && told.data.epoch !== map.epoch) map.start_over(told.data.epoch);
   else if (told.topic === "hello") start_session();
   else if (told.topic === "clock") bus.run_at(told.data.speed);
   else if (told.topic === "rewound") start_session();
-  else if (told.topic === "path") for (const old of bus.with_prefix("path/")) drop_before(old.topic, told.data.first);
+  else if (told.topic === "path") drop_path_before(told.data.first);
   else if (told.topic === "loop") note_loop(told);
   else if (told.topic.startsWith("grid/")) grids.take(told).then(() => (dirty = true));
 });
@@ -43,16 +46,20 @@ const timebar = new Timebar(bus, commands);
 // The server is another one, or was left for a while: it tells all of it again.
 function start_session() {
   map.start_over(-1);
+  wish_space();
   for (const prefix of ["path/", "slice/", "grid/", "robot", "pose", "sigma", "cloud", "edits", "service/"]) bus.forget(prefix);
   overlay.loops = [];
 }
 
-/**
- * @param {string} topic
- * @param {number} first
- */
-function drop_before(topic, first) {
-  if (Number(topic.slice("path/".length)) < first) bus.topics.delete(topic);
+/** Free and occupied space is sent to who looks at it. */
+function wish_space() {
+  space.start_over(-1);
+  bus.say(look.colour === "space" ? "space on" : "space off");
+}
+
+/** @param {number} first the first piece of the path that counts */
+function drop_path_before(first) {
+  for (const { topic } of bus.with_prefix("path/")) if (Number(topic.slice("path/".length)) < first) bus.topics.delete(topic);
 }
 
 /** @param {import("./messages.js").Told} told */
@@ -130,7 +137,7 @@ function wire() {
   element("menu").onclick = () => element("menu").setAttribute("aria-expanded", String(element("side").classList.toggle("open")));
   const colour = /** @type {HTMLSelectElement} */ (element("colour"));
   const restyle = () => (renderer.set_theme((look.colour = colour.value)), (dirty = true));
-  colour.onchange = restyle;
+  colour.onchange = () => (restyle(), wish_space(), raise_low());
   on_theme(restyle);
   for (const name of /** @type {const} */ (["low", "high"])) {
     const slider = /** @type {HTMLInputElement} */ (element(name));
@@ -149,6 +156,14 @@ function wire() {
       dirty = true;
     },
   });
+}
+
+/** With the floor in the slice nothing would be free. */
+function raise_low() {
+  if (look.colour !== "space") return;
+  const slider = /** @type {HTMLInputElement} */ (element("low"));
+  slider.value = String(Math.max(Number(slider.value), (overlay.pose()?.[2] ?? 0) + 0.2));
+  slider.dispatchEvent(new Event("input"));
 }
 
 /** A button for each layer that there is. */
@@ -185,6 +200,7 @@ function draw() {
   const now_s = Math.max(0, (bus.data("map")?.utime_us ?? 0) / 1e6);
   const until_ms = performance.now() + 8;
   for (const level of map.levels) if (level.refresh(until_ms, now_s)) dirty = true;
+  if (look.colour === "space" && space.refresh(until_ms, look)) dirty = true;
   if (look.colour === "age" && performance.now() - aged_ms > AGE_PERIOD_MS) {
     aged_ms = performance.now();
     map.levels[0].age_all();
@@ -195,7 +211,8 @@ function draw() {
   if (!dirty) return;
   dirty = false;
   const began_ms = performance.now();
-  renderer.draw(map.shown(MOST_VOXELS[/** @type {"splat" | "webgl"} */ (renderer.name)]), camera, look);
+  const fine_enough = map.shown(MOST_VOXELS[/** @type {"splat" | "webgl"} */ (renderer.name)]);
+  renderer.draw(look.colour === "space" ? space.shown : fine_enough, camera, look);
   stats.draw_ms = performance.now() - began_ms;
   overlay.draw();
   ++stats.frames;
@@ -207,4 +224,4 @@ setInterval(show_panels, 200);
 draw();
 
 // For tests and for the curious.
-Object.assign(window, { voxlist: { bus, map, camera, overlay, renderer, stats, look } });
+Object.assign(window, { voxlist: { bus, map, space, camera, overlay, renderer, stats, look } });

@@ -135,9 +135,7 @@ export class MapStore {
 
   /** @param {number} epoch */
   start_over(epoch) {
-    this.epoch = epoch;
-    this.levels = [new MapLevel(), new MapLevel()];
-    this.is_whole = false;
+    [this.epoch, this.levels, this.is_whole] = [epoch, [new MapLevel(), new MapLevel()], false];
   }
 
   /**

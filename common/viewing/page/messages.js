@@ -9,7 +9,7 @@
  */
 /** @typedef {{utime_us: number, position: [number, number, number], yaw: number}} Pose */
 /** @typedef {{utime_us: number, covariance: number[]}} Sigma */
-/** @typedef {{service: string, state: "OK" | "WARNING" | "ERROR", message: string, p99_ms: number}} Service */
+/** @typedef {{service: string, state: "OK" | "WARNING" | "ERROR", message: string, p99_ms: number, pid: number}} Service */
 /** @typedef {{epoch: number, level: number, edge_m: number, left: [number, number]}} Blocks */
 /** @typedef {{id: number, kind: string, lowest: number[], highest: number[], placed: number[]}} Edit */
 /**

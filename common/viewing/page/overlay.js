@@ -6,7 +6,7 @@ import { css } from "./palette.js";
 /** @typedef {import("./messages.js").Point} Point */
 
 /** Ages (s) from which on what is shown is old. A scan may take a second. */
-export const STALE_S = { robot: 2.5, pose: 2.5, obstacles: 2.5, cloud: 3, service: 3 };
+export const STALE_S = { robot: 2.5, pose: 2.5, obstacles: 2.5, cloud: 3, service: 2.5 };
 
 const OBSTACLE_COLOURS = ["bad", "doubt", "accent"]; // by type: obstacle, overhang, negative
 const EDIT_COLOURS = { erase: "dim", free: "good", blocked: "bad" };

@@ -10,13 +10,16 @@ const parts = (hex) => [1, 3, 5].map((at) => parseInt(hex.slice(at, at + 2), 16)
 /** How many colours a palette has. */
 export const SHADES = 64;
 
+/** Whether each vertex tells its colour, not its height. @param {{colour: string}} look */
+export const is_by_vertex = (look) => look.colour === "age" || look.colour === "space";
+
 /**
  * SHADES colours as 0xAABBGGRR, as ImageData has them: the lit half first, then what lies below something.
- * @param {string} kind height, age or plain
+ * @param {string} kind height, age, space or plain
  * @returns {Uint32Array}
  */
 export function palette(kind) {
-  const stops = (dark.matches ? DARK : LIGHT).map(parts);
+  const stops = (kind === "space" ? space_stops() : dark.matches ? DARK : LIGHT).map(parts);
   const colours = new Uint32Array(2 * SHADES);
   for (let i = 0; i < SHADES; ++i) {
     const at = kind === "plain" ? 2.4 : ((stops.length - 1) * (kind === "age" ? SHADES - 1 - i : i)) / (SHADES - 1);
@@ -27,6 +30,10 @@ export function palette(kind) {
   }
   return colours;
 }
+
+/** Free, from the lowest cells to the highest, then what is occupied. */
+const space_stops = () => (dark.matches ? ["#2f8f6c", "#1c4a3c", "#173b31", "#8f98a1", "#c3cad0", "#f2f5f7"]
+  : ["#7cc4a6", "#b9dccb", "#cfe6db", "#7c8288", "#4a5157", "#1d2226"]);
 
 /** @param {number[]} colour */
 const packed = ([r, g, b]) => (0xff000000 | (b << 16) | (g << 8) | r) >>> 0;

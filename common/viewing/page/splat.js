@@ -1,6 +1,6 @@
 // The renderer for machines without a GPU: squares into an image, nearest first by a depth buffer. The projection is
 // parallel, so a vertex costs three look-ups an axis and no multiplication.
-import { background, palette, SHADES } from "./palette.js";
+import { background, is_by_vertex, palette, SHADES } from "./palette.js";
 
 /** @typedef {import("./map_store.js").MapLevel} MapLevel */
 /** @typedef {import("./camera.js").Camera} Camera */
@@ -99,7 +99,7 @@ export class SplatRenderer {
     const width = this.canvas.width;
     const most_left = width - size;
     const most_top = this.canvas.height - size;
-    const by_age = look.colour === "age";
+    const by_vertex = is_by_vertex(look);
     for (let i = 0; i < vertices.length; ++i) {
       const v = vertices[i];
       const x = v & 63;
@@ -111,7 +111,7 @@ export class SplatRenderer {
       const top = (yx[x] + yy[y] + yz[z]) >> FRACTION;
       if (left < 0 || top < 0 || left > most_left || top > most_top) continue;
       const depth = dx[x] + dy[y] + dz[z];
-      const colour = colours[(by_age ? v >>> 26 : height_shade) + ((v >> 24) & 1) * SHADES];
+      const colour = colours[(by_vertex ? v >>> 26 : height_shade) + ((v >> 24) & 1) * SHADES];
       for (let row = top * width + left, end = row + size * width; row < end; row += width)
         for (let at = row; at < row + size; ++at)
           if (depth < depths[at]) {

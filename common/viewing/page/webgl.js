@@ -1,5 +1,5 @@
 // The renderer for a GPU: one vertex a voxel, drawn as a square that is large enough to close surfaces.
-import { background, palette, SHADES } from "./palette.js";
+import { background, is_by_vertex, palette, SHADES } from "./palette.js";
 
 /** @typedef {import("./map_store.js").MapLevel} MapLevel */
 /** @typedef {import("./map_store.js").Chunk} Chunk */
@@ -10,7 +10,7 @@ layout(location = 0) in uvec4 vertex; // x, y, z in the chunk; shade
 uniform vec3 corner;                  // of the chunk, from what is in the middle of the screen (m)
 uniform vec3 right, up, into;
 uniform vec2 metres_to_clip;
-uniform float edge, size, low, high, base, by_age;
+uniform float edge, size, low, high, base, by_vertex;
 flat out ivec2 shade;
 void main() {
   vec3 p = corner + (vec3(vertex.xyz) + 0.5) * edge;
@@ -18,7 +18,7 @@ void main() {
   gl_Position = vec4(dot(p, right) * metres_to_clip.x, dot(p, up) * metres_to_clip.y, dot(p, into) / 3000.0, 1.0);
   if (share < 0.0 || share > 1.0) gl_Position.z = 2.0; // not drawn
   gl_PointSize = size;
-  int colour = by_age > 0.5 ? int(vertex.w >> 2) : min(${SHADES - 1}, int(${SHADES}.0 * share));
+  int colour = by_vertex > 0.5 ? int(vertex.w >> 2) : min(${SHADES - 1}, int(${SHADES}.0 * share));
   shade = ivec2(colour, int(vertex.w & 1u));
 }`;
 const FRAGMENT = `#version 300 es
@@ -120,7 +120,7 @@ export class WebglRenderer {
     gl.uniform3fv(this.uniform("into"), camera.into);
     gl.uniform2f(this.uniform("metres_to_clip"), (2 * camera.scale) / camera.width, (2 * camera.scale) / camera.height);
     const values = { edge: level.edge_m, size: Math.max(1, Math.ceil(level.edge_m * camera.scale * 1.2)), low: look.low,
-      high: look.high, base: camera.target[2], by_age: look.colour === "age" ? 1 : 0 };
+      high: look.high, base: camera.target[2], by_vertex: is_by_vertex(look) ? 1 : 0 };
     for (const [name, value] of Object.entries(values)) gl.uniform1f(this.uniform(name), value);
     for (const chunk of level.chunks.values()) {
       const low_m = chunk.at[2] * level.edge_m;

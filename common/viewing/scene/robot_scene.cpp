@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <utility>
 #include <voxlist/health_t.hpp>
+#include <voxlist/keyframe_t.hpp>
 #include <voxlist/localisation_t.hpp>
 #include <voxlist/map_octree_t.hpp>
 #include <voxlist/obstacles_t.hpp>
@@ -66,7 +67,12 @@ void RobotScene::take(const pose_t& message, std::int64_t now_us) {
   if (!pose) return;
   pose_ = {pose->utime_us, pose->pose.translation(), to_pose2(pose->pose).yaw_rad};
   board_.put("pose", json_of(*pose), now_us);
-  travelled_.add(pose_->position, now_us, board_);
+  travelled_.add(pose_->position, keyframes_, now_us, board_);
+}
+
+void RobotScene::take(const keyframe_t& message, std::int64_t now_us) {
+  if (const auto moved = keyframes_.take(message))
+    travelled_.move(*moved, keyframes_.pose(*moved), now_us, board_);
 }
 
 void RobotScene::take(const uncertain_pose_t& message, std::int64_t now_us) {
@@ -113,6 +119,7 @@ void RobotScene::take_slice(const pointcloud_t& message, std::int64_t now_us) {
 }
 
 void RobotScene::take(const bus::MapChange& change, std::int64_t now_us) {
+  keyframes_.follow({change.map_id, change.moves, change.version - change.moves - change.edits});
   const bool is_new = change.moves > moves_ && pose_;
   moves_ = change.moves;
   if (!is_new) return;
@@ -136,6 +143,7 @@ void RobotScene::start_over(std::int64_t now_us) {
   travelled_.start_over(now_us, board_);
   pose_.reset();
   cloud_.reset();
+  keyframes_ = {};
   moves_ = 0;
   knows_edits_ = false;
 }

@@ -8,10 +8,12 @@
 #include "voxlist/bus/maps/edit_convert.h"
 #include "voxlist/bus/maps/map_chunks.h"
 #include "voxlist/viewing/scene/board.h"
+#include "voxlist/viewing/scene/keyframe_poses.h"
 #include "voxlist/viewing/scene/travelled.h"
 
 namespace voxlist {
 class health_t;
+class keyframe_t;
 class localisation_t;
 class map_octree_t;
 class obstacles_t;
@@ -38,6 +40,12 @@ class RobotScene {
   void take(const bus::EditedBoxes& edits, std::int64_t now_us);
   void take(const map_octree_t& message, std::int64_t now_us);
   void take(const traversability_t& message, std::int64_t now_us);
+
+  /// The path moves with the map's keyframes.
+  void take(const keyframe_t& message, std::int64_t now_us);
+
+  /// The first keyframe to ask the mapper for now, if one is due.
+  std::optional<std::int32_t> keyframe_due(std::int64_t now_us) { return keyframes_.due(now_us); }
 
   /// A cloud stands where its LOCALISATION says, which comes later; a slice at the newest POSE.
   void take_cloud(const pointcloud_t& message, std::int64_t now_us);
@@ -73,6 +81,7 @@ class RobotScene {
 
   const std::size_t most_points_;
   Board board_;
+  KeyframePoses keyframes_;
   Travelled travelled_;
   std::int32_t state_ = -1;
   std::int64_t since_us_ = 0;  // of the state

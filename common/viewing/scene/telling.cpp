@@ -111,6 +111,7 @@ std::string json_of(const health_t& message) {
                   {"state", kStates[state]},
                   {"message", message.message},
                   {"p99_ms", message.latency_p99_ms},
+                  {"pid", message.pid},
                   {"utime_us", message.utime}});
 }
 

@@ -1,6 +1,7 @@
 #include "voxlist/viewing/scene/travelled.h"
 
 #include <cstring>
+#include <utility>
 
 #include "voxlist/viewing/scene/board.h"
 
@@ -20,40 +21,61 @@ std::string first_as_json(std::int64_t first) {
 
 }  // namespace
 
-void Travelled::add(const Eigen::Vector3d& position, std::int64_t now_us, Board& board) {
+void Travelled::add(const Eigen::Vector3d& position, KeyframePoses& keyframes, std::int64_t now_us,
+                    Board& board) {
   const double step_m = last_ ? (position - *last_).norm() : kStep_m;
   if (step_m < kStep_m) return;
-  if (points_.size() == kPointsEach) begin_topic(now_us, board);
-  const Eigen::Vector3f p = position.cast<float>();
-  const bool begins = begins_ || step_m > kJump_m;
-  points_.push_back({p.x(), p.y(), p.z(), begins ? 1.0F : 0.0F});
+  if (pieces_.back().size() == kPointsEach) begin_piece(now_us, board);
+  Point point{position.cast<float>(), begins_ || step_m > kJump_m, keyframes.near(position), {}};
+  if (point.keyframe)
+    point.in_keyframe = (keyframes.pose(*point.keyframe).inverse() * position).eval().cast<float>();
+  pieces_.back().push_back(point);
   begins_ = false;
   last_ = position;
-  put(now_us, board);
+  put(pieces_.size() - 1, now_us, board);
+}
+
+void Travelled::move(std::size_t keyframe, const Pose3& T_map_base, std::int64_t now_us,
+                     Board& board) {
+  for (std::size_t i = 0; i < pieces_.size(); ++i) {
+    bool is_moved = false;
+    for (Point& point : pieces_[i]) {
+      if (point.keyframe != keyframe) continue;
+      point.position = (T_map_base * point.in_keyframe.cast<double>()).eval().cast<float>();
+      is_moved = true;
+    }
+    if (is_moved) put(i, now_us, board);
+  }
 }
 
 // A new topic begins with the last point, so that pieces meet.
-void Travelled::begin_topic(std::int64_t now_us, Board& board) {
-  points_ = {points_.back()};
-  points_.front().begins = 1.0F;
-  ++topic_;
-  if (topic_ - first_ < kMostTopics) return;
+void Travelled::begin_piece(std::int64_t now_us, Board& board) {
+  Point last = pieces_.back().back();
+  last.begins = true;
+  pieces_.push_back({last});
+  if (pieces_.size() <= kMostTopics) return;
+  pieces_.pop_front();
   board.drop(topic_name(first_));
   board.put("path", first_as_json(++first_), now_us);
 }
 
-void Travelled::put(std::int64_t now_us, Board& board) const {
-  std::vector<std::uint8_t> bytes(points_.size() * sizeof(Point));
-  std::memcpy(bytes.data(), points_.data(), bytes.size());
-  board.put(topic_name(topic_), "{}", now_us, std::move(bytes));
+void Travelled::put(std::size_t piece, std::int64_t now_us, Board& board) const {
+  std::vector<float> values;
+  for (const Point& point : pieces_[piece]) {
+    values.insert(values.end(), point.position.begin(), point.position.end());
+    values.push_back(point.begins ? 1.0F : 0.0F);
+  }
+  std::vector<std::uint8_t> bytes(values.size() * sizeof(float));
+  std::memcpy(bytes.data(), values.data(), bytes.size());
+  board.put(topic_name(first_ + static_cast<std::int64_t>(piece)), "{}", now_us, std::move(bytes));
 }
 
 void Travelled::start_over(std::int64_t now_us, Board& board) {
   board.drop("path/");
-  points_.clear();
+  first_ += static_cast<std::int64_t>(pieces_.size());
+  pieces_ = std::deque<Piece>(1);
   last_.reset();
   begins_ = true;
-  first_ = ++topic_;
   board.put("path", first_as_json(first_), now_us);
 }
 

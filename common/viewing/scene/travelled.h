@@ -2,24 +2,31 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <deque>
 #include <optional>
-#include <string>
 #include <vector>
+
+#include "voxlist/viewing/scene/keyframe_poses.h"
 
 namespace voxlist::viewing {
 
 class Board;
 
 /// The way of the robot, on topics "path/0", "path/1", ... of kPointsEach points: only the newest
-/// topic changes while it grows. Topic "path" tells the first that counts.
+/// topic changes while it grows. Topic "path" tells the first that counts. Each point stands beside
+/// a keyframe, and moves with it.
 class Travelled {
  public:
   static constexpr std::size_t kPointsEach = 64;
   /// Topics that are kept: at 0.1 m between points the last 6 km.
-  static constexpr std::int64_t kMostTopics = 1000;
+  static constexpr std::size_t kMostTopics = 1000;
 
   /// Adds a point of the map (m) where it is 0.1 m from the last one.
-  void add(const Eigen::Vector3d& position, std::int64_t now_us, Board& board);
+  void add(const Eigen::Vector3d& position, KeyframePoses& keyframes, std::int64_t now_us,
+           Board& board);
+
+  /// A keyframe stands elsewhere: so does what lies beside it.
+  void move(std::size_t keyframe, const Pose3& T_map_base, std::int64_t now_us, Board& board);
 
   /// The next point begins a new piece.
   void interrupt() { begins_ = true; }
@@ -29,14 +36,18 @@ class Travelled {
 
  private:
   struct Point {
-    float x, y, z, begins;
+    Eigen::Vector3f position;
+    bool begins;
+    std::optional<std::size_t> keyframe;
+    Eigen::Vector3f in_keyframe;  // the position in the keyframe's base
   };
+  using Piece = std::vector<Point>;
 
-  void put(std::int64_t now_us, Board& board) const;
-  void begin_topic(std::int64_t now_us, Board& board);
+  void put(std::size_t piece, std::int64_t now_us, Board& board) const;
+  void begin_piece(std::int64_t now_us, Board& board);
 
-  std::vector<Point> points_;  // of the newest topic
-  std::int64_t topic_ = 0, first_ = 0;
+  std::deque<Piece> pieces_ = std::deque<Piece>(1);  // one for each topic from first_ on
+  std::int64_t first_ = 0;
   std::optional<Eigen::Vector3d> last_;
   bool begins_ = true;
 };

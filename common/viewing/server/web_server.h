@@ -58,6 +58,8 @@ struct ServerOwner {
   std::function<std::optional<Frame>(int)> next;
   std::function<CommandAnswer(const std::string& name, const std::string& json)> command;
   ForeignProtocol foreign{};
+  /// What a client says on its stream: any text. It is never an order.
+  std::function<void(int, std::string_view text)> hear = [](int, std::string_view) {};
 };
 
 /// HTTP and WebSocket on one port: the page's files, the stream, the commands. What it refuses is

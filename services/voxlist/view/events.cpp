@@ -13,13 +13,13 @@ namespace {
 
 constexpr std::int64_t kMapId = 1;
 
-bus::MapChange whole_map(const OccupancyMap& map, std::size_t poses, std::int64_t utime_us) {
+bus::MapChange whole_map(const OccupancyMap& map, std::int64_t utime_us) {
   bus::MapChange change;
   change.utime_us = utime_us;
   change.map_id = kMapId;
-  change.version = static_cast<std::int64_t>(poses);
+  change.version = 1;
   change.resolution = bus::resolution_of(map);
-  change.blocks.occupied = bus::to_messages(map).occupied;
+  change.blocks = bus::to_messages(map);
   return change;
 }
 
@@ -37,14 +37,18 @@ std::optional<bus::Event> LogEvents::next() {
   return std::nullopt;
 }
 
-MapEvents::MapEvents(const OccupancyMap& map, const std::vector<StampedPose3>& poses) {
-  add_map(map, poses.front().utime_us);
+MapEvents::MapEvents(const OccupancyMap& map, const OccupancyMap& free_space,
+                     const std::vector<StampedPose3>& poses) {
+  const std::int64_t begin_us = poses.front().utime_us;
+  add_map(bus::kMapUpdate, {map.occupied, VoxelMap(map.passed.resolution_m())}, begin_us);
+  if (!free_space.passed.empty()) add_map(bus::kFreeSpace, free_space, begin_us);
   for (const StampedPose3& pose : poses) add_pose(pose);
 }
 
-void MapEvents::add_map(const OccupancyMap& map, std::int64_t utime_us) {
-  for (const map_update_t& message : bus::split_map(whole_map(map, 1, utime_us)))
-    add(bus::kMapUpdate, utime_us, message);
+void MapEvents::add_map(bus::Channel<map_update_t> channel, const OccupancyMap& map,
+                        std::int64_t utime_us) {
+  for (const map_update_t& message : bus::split_map(whole_map(map, utime_us)))
+    add(channel, utime_us, message);
 }
 
 void MapEvents::add_pose(const StampedPose3& pose) {

@@ -32,16 +32,17 @@ class LogEvents : public Events {
   bus::EventLogReader reader_;
 };
 
-/// What a map folder tells: its map, then where the robot was at each time, as a mapper and a
-/// localiser would have said it.
+/// What a map folder tells: its map and free space, then where the robot was at each time, as a
+/// mapper and a localiser would have said it.
 class MapEvents : public Events {
  public:
-  MapEvents(const OccupancyMap& map, const std::vector<StampedPose3>& poses);
+  MapEvents(const OccupancyMap& map, const OccupancyMap& free_space,
+            const std::vector<StampedPose3>& poses);
   std::optional<bus::Event> next() override;
   void rewind() override { next_ = 0; }
 
  private:
-  void add_map(const OccupancyMap& map, std::int64_t utime_us);
+  void add_map(bus::Channel<map_update_t> channel, const OccupancyMap& map, std::int64_t utime_us);
   void add_pose(const StampedPose3& pose);
   template <class M>
   void add(bus::Channel<M> channel, std::int64_t utime_us, const M& message);

@@ -55,9 +55,12 @@ void Player::tell_time(std::int64_t now_us) {
 }
 
 viewing::ServerOwner Player::owner() {
-  return {[this] { return viewer_.open(); }, [this](int client) { viewer_.close(client); },
+  return {[this] { return viewer_.open(); },
+          [this](int client) { viewer_.close(client); },
           [this](int client) { return viewer_.next(client, shown_us_); },
-          [this](const std::string& name, const std::string& json) { return obey(name, json); }};
+          [this](const std::string& name, const std::string& json) { return obey(name, json); },
+          {},
+          [this](int client, std::string_view text) { viewer_.hear(client, text); }};
 }
 
 viewing::CommandAnswer Player::obey(const std::string& name, const std::string& json) {

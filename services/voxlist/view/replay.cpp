@@ -24,6 +24,9 @@ Replay::Replay(std::unique_ptr<Events> events, viewing::Viewer& viewer,
       bus_({.url = "memq://", .prefix = ""}),
       feed_(bus_, viewer.scene(), robots) {
   bus_.subscribe(bus::kMapUpdate, [this](const map_update_t& m) { take(m); });
+  bus_.subscribe(bus::kFreeSpace, [this](const map_update_t& m) {
+    for (const bus::MapChange& change : space_assembler_.add(m)) viewer_.take_space(change);
+  });
   next_ = events_->next();
 }
 
@@ -55,6 +58,7 @@ void Replay::rewind() {
   next_ = events_->next();
   now_us_ = 0;
   assembler_.forget();
+  space_assembler_.forget();
   viewer_.start_over();
 }
 

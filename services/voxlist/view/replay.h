@@ -39,7 +39,7 @@ class Replay {
   viewing::Viewer& viewer_;
   bus::Bus bus_;
   viewing::BusFeed feed_;
-  bus::MapAssembler assembler_;
+  bus::MapAssembler assembler_, space_assembler_;
   std::optional<bus::Event> next_;
   std::int64_t now_us_ = 0;
 };

@@ -211,7 +211,7 @@ TEST(MapEvents, TellTheMapAndWhereTheRobotWas) {
   StampedPose3 first{kBegin_us, Pose3::Identity()}, last{kBegin_us + kSecond_us, Pose3::Identity()};
   last.pose.translation().x() = 4.0;
   viewing::Viewer seen = viewer();
-  Replay replay(std::make_unique<MapEvents>(map, std::vector{first, last}), seen, {});
+  Replay replay(std::make_unique<MapEvents>(map, map, std::vector{first, last}), seen, {});
   go_to(replay, 1);
   EXPECT_EQ(seen.levels().map().size(), 1U);
   EXPECT_THAT(shown(seen)["pose"], testing::HasSubstr("4.0"));

@@ -2,10 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
+#include <vector>
 #include <voxlist/health_t.hpp>
+#include <voxlist/keyframe_t.hpp>
 #include <voxlist/localisation_t.hpp>
 #include <voxlist/obstacles_t.hpp>
 #include <voxlist/pointcloud_t.hpp>
@@ -120,6 +124,78 @@ TEST(RobotScene, AddsNothingToThePathOfARobotThatStands) {
   RobotScene scene(100);
   for (int i = 0; i < 100; ++i) scene.take(pose(0.0001 * i, i + 1), 0);
   EXPECT_EQ(find(scene, "path/0")->bytes.size(), 16U);
+}
+
+bus::MapChange map_of(std::int64_t keyframes, std::int64_t moves) {
+  bus::MapChange change;
+  change.map_id = 7;
+  change.version = keyframes + moves;
+  change.moves = moves;
+  return change;
+}
+
+keyframe_t keyframe(std::int32_t index, double x_m, double y_m) {
+  keyframe_t message{};
+  message.utime = 1;
+  message.map_id = 7;
+  message.index = index;
+  message.trans[0] = x_m;
+  message.trans[1] = y_m;
+  message.quat[0] = 1.0;
+  return message;
+}
+
+std::vector<float> path_of(const RobotScene& scene, const std::string& topic) {
+  const auto& bytes = find(scene, topic)->bytes;
+  std::vector<float> values(bytes.size() / sizeof(float));
+  std::memcpy(values.data(), bytes.data(), bytes.size());
+  return values;
+}
+
+TEST(RobotScene, MovesThePathWithTheKeyframesBesideIt) {
+  RobotScene scene(100);
+  scene.take(map_of(2, 0), 0);
+  scene.take(keyframe(0, 0.0, 0.0), 0);
+  scene.take(pose(0.2, 1), 0);
+  scene.take(keyframe(1, 10.0, 0.0), 0);
+  scene.take(pose(10.2, 2), 0);
+  EXPECT_FALSE(scene.keyframe_due(1));
+  scene.take(map_of(2, 1), 0);  // a loop was closed
+  EXPECT_EQ(scene.keyframe_due(2), 0);
+  EXPECT_FALSE(scene.keyframe_due(3)) << "asked already";
+  scene.take(keyframe(0, 0.0, 0.0), 0);
+  EXPECT_EQ(scene.keyframe_due(2'000'000), 1);
+  scene.take(keyframe(1, 10.0, 0.5), 0);
+  EXPECT_EQ(path_of(scene, "path/0"),
+            (std::vector<float>{0.2F, 0.0F, 0.0F, 1.0F, 10.2F, 0.5F, 0.0F, 1.0F}));
+  EXPECT_FALSE(scene.keyframe_due(4'000'000));
+}
+
+TEST(RobotScene, MovesNothingThatWasDrawnSinceTheLoop) {
+  RobotScene scene(100);
+  scene.take(map_of(1, 0), 0);
+  scene.take(keyframe(0, 0.0, 0.0), 0);
+  scene.take(pose(0.2, 1), 0);
+  scene.take(map_of(1, 1), 0);
+  scene.take(pose(0.4, 2), 0);
+  scene.take(keyframe(0, 0.0, 1.0), 0);
+  EXPECT_EQ(path_of(scene, "path/0"),
+            (std::vector<float>{0.2F, 1.0F, 0.0F, 1.0F, 0.4F, 0.0F, 0.0F, 1.0F}));
+}
+
+TEST(RobotScene, LeavesThePathWhereKeyframesOfAnotherMapOrOfNoneAre) {
+  RobotScene scene(100);
+  scene.take(map_of(1, 0), 0);
+  scene.take(keyframe(0, 0.0, 0.0), 0);
+  scene.take(pose(0.2, 1), 0);
+  keyframe_t other = keyframe(0, 5.0, 5.0);
+  other.map_id = 8;
+  scene.take(other, 0);
+  scene.take(keyframe(-1, 5.0, 5.0), 0);
+  scene.take(keyframe(2, 5.0, 5.0), 0);
+  keyframe_t broken = keyframe(0, std::numeric_limits<double>::quiet_NaN(), 0.0);
+  scene.take(broken, 0);
+  EXPECT_EQ(path_of(scene, "path/0"), (std::vector<float>{0.2F, 0.0F, 0.0F, 1.0F}));
 }
 
 TEST(RobotScene, ForgetsThePathOfAnotherMap) {

@@ -37,8 +37,11 @@ std::int64_t steady_us() {
 std::unique_ptr<Events> open(const ViewOptions& options, Console& console) {
   if (!std::filesystem::is_directory(options.input))
     return std::make_unique<LogEvents>(options.input, options.prefix.of(options.config));
-  const StoredMap map = read_map(options.input, read_settings(options.config).mapper, console);
-  return std::make_unique<MapEvents>(map.builder.map(), trajectory_of(options.input, map.poses));
+  mapping::MapBuilderConfig config = read_settings(options.config).mapper;
+  config.count_free = true;
+  const StoredMap map = read_map(options.input, config, console);
+  return std::make_unique<MapEvents>(map.builder.map(), map.builder.free_space(),
+                                     trajectory_of(options.input, map.poses));
 }
 
 void warn_without_map(const Highlights& found, Console& console) {
