@@ -1,6 +1,7 @@
 // Plays a robot and its services for the page's tests: says on the bus what it is told to on
 // standard input, a line each, and writes what others ask.
 // Lines: map ROOMS; track X Y YAW; lost; ambiguous; loop.
+// Free space: the rooms up to 2 m, once somebody asks for it.
 // Output: ready, then hint X Y YAW SIGMA_RAD; want N; edit ACTION ID X Y Z X Y Z.
 #include <poll.h>
 #include <unistd.h>
@@ -48,6 +49,20 @@ OccupancyMap building(int rooms) {
       for (std::int32_t z = 0; z < (is_wall ? 40 : 1); ++z) map.occupied.insert({x, y, z});
     }
   return map;
+}
+
+// What rays have freed of it.
+OccupancyMap free_space(int rooms) {
+  OccupancyMap cells{VoxelMap(0.08), VoxelMap(0.08)};
+  for (std::int32_t x = 0; x < 75 * rooms; ++x)
+    for (std::int32_t y = 0; y < 50; ++y) {
+      const bool is_wall = y == 0 || y == 49 || x == 0 || x % 75 == 74;
+      for (std::int32_t z = 0; z < 25; ++z) {
+        const bool is_occupied = is_wall || z == 0;
+        (is_occupied ? cells.occupied : cells.passed).insert({x, y, z});
+      }
+    }
+  return cells;
 }
 
 class Stage {
@@ -104,6 +119,11 @@ class Stage {
     const ChangedBlocks changed = difference(map_, next);
     mapper_ = test::StandInMapper(change);
     change.blocks = bus::to_messages(next, changed);
+    bus::MapChange free = change;
+    const OccupancyMap cells = free_space(rooms);
+    free.resolution = bus::resolution_of(cells);
+    free.blocks = bus::to_messages(cells);
+    free_ = test::StandInMapper(free);
     if (version_ > 1) change.base_version = version_ - 1;
     for (const auto& message : bus::split_map(change)) bus_.publish(bus::kMapUpdate, message);
     map_ = std::move(next);
@@ -133,6 +153,8 @@ class Stage {
   void take(const map_request_t& request) {
     if (request.want == map_request_t::WANT_MAP || request.want == map_request_t::WANT_WORD) {
       for (const auto& message : mapper_.answer(request)) bus_.publish(bus::kMapUpdate, message);
+    } else if (request.want == map_request_t::WANT_FREE_SPACE) {
+      for (const auto& message : free_.answer(request)) bus_.publish(bus::kFreeSpace, message);
     } else if (request.want == map_request_t::WANT_EDITS) {
       bus_.publish(bus::kMapEdits, bus::to_message(edits_));
     } else {
@@ -231,7 +253,7 @@ class Stage {
   }()};
   const std::int64_t map_id_;
   OccupancyMap map_{VoxelMap(0.05), VoxelMap(0.1)};
-  test::StandInMapper mapper_;
+  test::StandInMapper mapper_, free_;
   bus::EditedBoxes edits_;
   std::string input_, state_;
   Pose2 pose_;

@@ -1,44 +1,11 @@
 // The live page, step by step, as an operator sees it. The robot and its services are played by the stage (stage.cpp);
-// the viewer and the browser are real.
-import { spawn } from "node:child_process";
+// the viewer and the browser are real. carried_test.js has the real ones.
 import { existsSync, readdirSync } from "node:fs";
 import { join } from "node:path";
-import { createInterface } from "node:readline";
 import { check, drawn, state, with_page, within } from "./browser.js";
+import { Player, shot, shows, URL_OF_PAGE } from "./player.js";
 
-const URL_OF_PAGE = "http://127.0.0.1:7668/";
-const { BIN, SHOTS, XDG_STATE_HOME } = process.env;
-
-/** A process that is started anew, and what it says. */
-class Player {
-  constructor(name, ...args) {
-    [this.name, this.args] = [name, args];
-    this.said = [];
-    this.start();
-  }
-  start() {
-    this.process = spawn(join(BIN, this.name), this.args, { stdio: ["pipe", "pipe", "inherit"] });
-    createInterface({ input: this.process.stdout }).on("line", (line) => this.said.push(line));
-  }
-  say(line) {
-    this.process.stdin.write(line + "\n");
-  }
-  kill(signal) {
-    this.process.kill(signal);
-  }
-  async hears(claim, pattern) {
-    const slower = Number(process.env.SLOWER ?? 1);
-    for (let i = 0; i < 100 * slower; ++i) {
-      if (this.said.some((line) => pattern.test(line))) return check(claim, true);
-      await new Promise((done) => setTimeout(done, 50));
-    }
-    throw new Error(`FAILED: ${claim}: the bus had ${this.said.join("; ")}`);
-  }
-}
-
-const shows = (page, seconds, name) =>
-  within(page, seconds, `the page says ${name}`, (name) => document.getElementById("state").textContent === name, name);
-const shot = (page, name) => page.screenshot({ path: join(SHOTS, `${name}.png`) });
+const { XDG_STATE_HOME } = process.env;
 const at_screen = (page, point) => page.evaluate((p) => voxlist.camera.project(p), point);
 
 async function drag(page, from, to) {
@@ -95,6 +62,24 @@ async function shows_how_sure_it_is(page, stage) {
   await shot(page, "ambiguous");
   stage.say("track 3 2 0");
   await shows(page, 2, "TRACKING");
+}
+
+async function shows_free_space(page) {
+  await page.selectOption("#colour", "space");
+  await within(page, 3, "free and occupied space comes to who looks at it", () => {
+    const { told, shown } = voxlist.space;
+    return told.every((level) => level.chunks.size > 0) && [...shown.chunks.values()].some((chunk) => chunk.vertices.length > 4000);
+  });
+  check("the floor is out of the slice then", (await page.inputValue("#low")) === "0.2");
+  await page.waitForTimeout(300);
+  await shot(page, "space");
+  check("and is drawn", (await drawn(page)) > 20000);
+  const free = () => voxlist.space.told[0].chunks.size;
+  await page.selectOption("#colour", "height");
+  await within(page, 2, "and no longer to who does not", () => voxlist.space.told[0].chunks.size === 0);
+  await page.waitForTimeout(700);
+  check("it stays away", (await page.evaluate(free)) === 0);
+  await page.fill("#low", "-0.5");
 }
 
 async function obeys(page, stage) {
@@ -191,6 +176,7 @@ try {
     page.on("request", (request) => request.url().startsWith(URL_OF_PAGE) || elsewhere.push(request.url()));
     await shows_map_and_robot(page, stage);
     await shows_how_sure_it_is(page, stage);
+    await shows_free_space(page);
     await obeys(page, stage);
     await records(page);
     check("it has no faults so far", errors.length === 0, errors.join("; "));
