@@ -29,6 +29,8 @@ void append(const std::vector<Voxel>& more, std::vector<Voxel>& blocks) {
   blocks.insert(blocks.end(), more.begin(), more.end());
 }
 
+std::int64_t microseconds(double s) { return static_cast<std::int64_t>(s * kSecond_us); }
+
 std::filesystem::path folder_of(const GridExportConfig& config) {
   return in_state_folder(config.folder);
 }
@@ -44,13 +46,10 @@ GridExportService::GridExportService(bus::Bus& bus, bus::Health& health,
       occupied_{service::MapFollower(health), {}, {}},
       free_{service::MapFollower(health, service::kFreeSpaceSource), {}, {}},
       builder_(config.robots.in_use()),
-      scans_(bus, health, builder_.robots()) {
+      scans_(bus, health, builder_.robots()),
+      grids_(bus, builder_.robots(), microseconds(config.repeat_period_s)) {
   check(config);
   if (!folder_.empty()) io::remove_stale_temporaries(folder_);
-  for (const planning::RobotProfile& robot : builder_.robots()) {
-    grid_channels_.push_back(bus::kGridPrefix + robot.name);
-    traversability_channels_.push_back(bus::kTraversabilityPrefix + robot.name);
-  }
   bus_.subscribe(bus::kMapUpdate, [this](const map_update_t& m) { take(m, occupied_); });
   bus_.subscribe(bus::kFreeSpace, [this](const map_update_t& m) { take(m, free_); });
   bus_.subscribe(bus::kKeyframe, [this](const keyframe_t& m) { way_has_grown_ |= way_.take(m); });
@@ -80,6 +79,7 @@ void GridExportService::take(const map_update_t& message, Input& input) {
 void GridExportService::follow_mapper() {
   if (occupied_.follower.map_id() != map_id_) {
     map_id_ = occupied_.follower.map_id();
+    grids_.forget();
     for (Input* input : {&occupied_, &free_})
       if (!input->follower.held()) {
         input->map = {};
@@ -107,7 +107,8 @@ void GridExportService::tick(std::int64_t now_us) {
     bus_.publish(bus::kMapRequest, request);
   }
   if (is_due(now_us)) make(now_us);
-  const auto save_period_us = static_cast<std::int64_t>(config_.save_period_s * kSecond_us);
+  grids_.tick(now_us);
+  const std::int64_t save_period_us = microseconds(config_.save_period_s);
   if (!is_saved_ && (!saved_us_ || now_us - *saved_us_ >= save_period_us)) save(now_us);
   report();
 }
@@ -151,18 +152,10 @@ void GridExportService::make(std::int64_t now_us) {
   const auto& held = *occupied_.follower.held();
   source_ = {held.utime_us, held.map_id, held.version};
   if (builder_.update()) is_saved_ = folder_.empty();
-  for (std::size_t i = 0; i < builder_.grids().size(); ++i) send(i);
+  grids_.send(builder_.grids(), source_, now_us);
   made_us_ = now_us;
   took_us_ = std::chrono::duration_cast<std::chrono::microseconds>(Clock::now() - start).count();
   health_.add_latency_us(took_us_);
-}
-
-void GridExportService::send(std::size_t robot) {
-  bus_.publish(bus::Channel<pixel_map_t>{grid_channels_[robot].c_str()},
-               to_pixel_map(builder_.grids()[robot], source_), bus::Delivery::kLatest);
-  bus_.publish(bus::Channel<traversability_t>{traversability_channels_[robot].c_str()},
-               to_traversability(builder_.grids()[robot], source_, builder_.robots()[robot].name),
-               bus::Delivery::kLatest);
 }
 
 void GridExportService::save(std::int64_t now_us) {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "services/grid_export/driven_way.h"
-#include "services/grid_export/grid_messages.h"
+#include "services/grid_export/grid_output.h"
 #include "services/grid_export/scan_output.h"
 #include "voxlist/planning/grids/grid_builder.h"
 #include "voxlist/planning/profiles/robot_profile.h"
@@ -25,6 +25,7 @@ namespace voxlist::services {
 struct GridExportConfig {
   std::string folder;
   double save_period_s = 1.0;
+  double repeat_period_s = 5.0;
   planning::RobotProfiles robots;
 
   template <class Visitor>
@@ -34,6 +35,11 @@ struct GridExportConfig {
       "if "
       "it is not there; empty: no files");
     v("save_period_s", save_period_s, "files are written at most this often", 1.0, 86'400.0);
+    v("repeat_period_s", repeat_period_s,
+      "where the map does not change, the last grids are sent again after this long, for who "
+      "starts "
+      "later; 0: never",
+      0.0, 86'400.0);
   }
 
   template <class Visitor>
@@ -42,8 +48,8 @@ struct GridExportConfig {
   }
 };
 
-/// Follows the mapper's map and publishes GRID_NAME and TRAVERSABILITY_NAME for each robot, and
-/// keeps them as files. Of each CLOUD it makes SCAN_NAME and SCAN_FAR_NAME.
+/// Follows the mapper's map and publishes GRID_NAME and TRAVERSABILITY_NAME for each robot, again
+/// and again, and keeps them as files. Of each CLOUD it makes SCAN_NAME and SCAN_FAR_NAME.
 class GridExportService {
  public:
   GridExportService(bus::Bus& bus, bus::Health& health, const GridExportConfig& config);
@@ -73,7 +79,6 @@ class GridExportService {
   bool is_due(std::int64_t now_us) const;
   void make(std::int64_t now_us);
   void bring_up_to_date();
-  void send(std::size_t robot);
   void save(std::int64_t now_us);
   void report();
 
@@ -85,7 +90,7 @@ class GridExportService {
   DrivenWay way_;
   planning::GridBuilder builder_;
   ScanOutput scans_;
-  std::vector<std::string> grid_channels_, traversability_channels_;
+  GridOutput grids_;
   GridSource source_;
   std::optional<std::int64_t> map_id_;
   std::int64_t moves_ = 0, edits_ = 0;

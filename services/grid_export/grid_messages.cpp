@@ -1,26 +1,11 @@
 #include "services/grid_export/grid_messages.h"
 
-#include <zlib.h>
-
-#include <stdexcept>
-#include <vector>
+#include <span>
 
 #include "voxlist/planning/grids/grid_files.h"
 
 namespace voxlist::services {
 namespace {
-
-// Grids are large areas of one value: more effort saves little.
-constexpr int kLevel = 1;
-
-std::vector<std::uint8_t> compressed(const std::vector<std::uint8_t>& bytes) {
-  uLongf size = compressBound(bytes.size());
-  std::vector<std::uint8_t> result(size);
-  if (compress2(result.data(), &size, bytes.data(), bytes.size(), kLevel) != Z_OK)
-    throw std::runtime_error("zlib cannot compress a grid");
-  result.resize(size);
-  return result;
-}
 
 template <class Message>
 void set_place(const planning::CellBox& box, Message& message) {
@@ -34,7 +19,8 @@ void set_place(const planning::CellBox& box, Message& message) {
 
 }  // namespace
 
-pixel_map_t to_pixel_map(const planning::TypedGrid& grid, const GridSource& source) {
+pixel_map_t to_pixel_map(const planning::TypedGrid& grid, const GridSource& source,
+                         BandedZlib& zlib) {
   pixel_map_t message{};
   message.utime = source.utime_us;
   set_place(grid.box, message);
@@ -42,13 +28,13 @@ pixel_map_t to_pixel_map(const planning::TypedGrid& grid, const GridSource& sour
   message.xy1[1] = message.xy0[1] + grid.box.height() * planning::kColumn_m;
   message.mpp = planning::kColumn_m;
   message.data_type = pixel_map_t::DATA_TYPE_UINT8;
-  message.mapData = compressed(planning::likelihoods(grid));
+  message.mapData = zlib.compress(planning::likelihoods(grid));
   message.datasize = static_cast<std::int32_t>(message.mapData.size());
   return message;
 }
 
 traversability_t to_traversability(const planning::TypedGrid& grid, const GridSource& source,
-                                   const std::string& profile) {
+                                   const std::string& profile, BandedZlib& zlib) {
   traversability_t message{};
   message.utime = source.utime_us;
   message.map_id = source.map_id;
@@ -56,10 +42,9 @@ traversability_t to_traversability(const planning::TypedGrid& grid, const GridSo
   message.profile = profile;
   message.resolution_m = planning::kColumn_m;
   set_place(grid.box, message);
-  std::vector<std::uint8_t> cells;
-  cells.reserve(grid.cells.size());
-  for (const planning::CellType type : grid.cells) cells.push_back(static_cast<std::uint8_t>(type));
-  message.cells = compressed(cells);
+  static_assert(sizeof(planning::CellType) == 1);
+  message.cells =
+      zlib.compress({reinterpret_cast<const std::uint8_t*>(grid.cells.data()), grid.cells.size()});
   message.datasize = static_cast<std::int32_t>(message.cells.size());
   return message;
 }

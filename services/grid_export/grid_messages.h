@@ -5,6 +5,7 @@
 #include <voxlist/pixel_map_t.hpp>
 #include <voxlist/traversability_t.hpp>
 
+#include "services/grid_export/banded_zlib.h"
 #include "voxlist/planning/grids/typed_grid.h"
 
 namespace voxlist::services {
@@ -17,11 +18,14 @@ struct GridSource {
   bool operator==(const GridSource&) const = default;
 };
 
-/// What may be driven on, as occ_map's readers have it.
-pixel_map_t to_pixel_map(const planning::TypedGrid& grid, const GridSource& source);
+/// What may be driven on, as occ_map's readers have it. `zlib` has seen nothing, or the pixels of
+/// an earlier grid, which saves time.
+pixel_map_t to_pixel_map(const planning::TypedGrid& grid, const GridSource& source,
+                         BandedZlib& zlib);
 
-/// All types, with the map's id and version.
+/// All types, with the map's id and version. `zlib` has seen nothing, or the types of an earlier
+/// grid.
 traversability_t to_traversability(const planning::TypedGrid& grid, const GridSource& source,
-                                   const std::string& profile);
+                                   const std::string& profile, BandedZlib& zlib);
 
 }  // namespace voxlist::services

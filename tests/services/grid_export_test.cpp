@@ -212,6 +212,70 @@ TEST_F(GridExport, FollowsTheMap) {
   EXPECT_EQ(type_at(tall_.back(), -0.79, -0.79), CellType::kObstacle);
 }
 
+TEST_F(GridExport, SendsTheGridsAgainForWhoStartsLater) {
+  run(8);
+  ASSERT_FALSE(tall_.empty() || pixels_.empty());
+  const traversability_t last = tall_.back();
+  tall_.clear();
+  pixels_.clear();
+  run(20);  // five seconds
+  ASSERT_THAT(tall_, SizeIs(1));
+  ASSERT_THAT(pixels_, SizeIs(1));
+  EXPECT_EQ(tall_.back().cells, last.cells);
+  EXPECT_EQ(tall_.back().version, last.version);
+  run(20);
+  EXPECT_THAT(tall_, SizeIs(2));
+  now_us_ -= 1000 * kSecond_us;  // somebody sets the clock
+  run(1);
+  EXPECT_THAT(tall_, SizeIs(3));
+}
+
+TEST_F(GridExport, DoesNotRepeatTheGridsOfAMapThatIsNoMore) {
+  run(8);
+  ASSERT_FALSE(tall_.empty());
+  map_id_ = 8;
+  version_ = 0;  // and the mapper has nothing yet
+  for (const map_update_t& message :
+       test::StandInMapper(scene_.change(scene_.map, version_, map_id_)).word())
+    bus_.publish(bus::kMapUpdate, message);
+  handle();
+  run(4);
+  tall_.clear();
+  run(40);
+  EXPECT_THAT(tall_, IsEmpty());
+}
+
+TEST(GridOutput, DoesNotRepeatGridsWhereItIsNotTo) {
+  bus::Bus bus({.url = "memq://", .prefix = ""});
+  int heard = 0;
+  bus.subscribe(bus::Channel<pixel_map_t>{"GRID_robot"}, [&](const pixel_map_t&) { ++heard; });
+  GridOutput output(bus, planning::RobotProfiles().in_use(), 0);
+  output.send({{{{0, 0}, {8, 8}}, std::vector<CellType>(64)}}, {}, kSecond_us);
+  output.tick(1000 * kSecond_us);
+  for (int i = 0; i < 10; ++i) bus.handle(std::chrono::milliseconds(0));
+  EXPECT_EQ(heard, 1);
+}
+
+// Runs of values as grids have them.
+std::vector<std::uint8_t> runs(std::size_t size) {
+  std::vector<std::uint8_t> bytes(size);
+  for (std::size_t i = 0; i < size; ++i) bytes[i] = static_cast<std::uint8_t>(i * i / 100'000 % 5);
+  return bytes;
+}
+
+TEST(BandedZlib, IsInflatedByZlibItselfHoweverOftenTheBytesChange) {
+  BandedZlib zlib;
+  for (const std::size_t size : {0U, 1U, 65'535U, 65'536U, 65'537U, 400'000U, 70'000U}) {
+    std::vector<std::uint8_t> bytes = runs(size);
+    EXPECT_EQ(unpacked(zlib.compress(bytes), size), bytes) << size;
+    for (std::size_t i = 0; i < size; i += 50'000) {
+      bytes[i] = 200;
+      EXPECT_EQ(unpacked(zlib.compress(bytes), size), bytes) << size << ' ' << i;
+      EXPECT_EQ(zlib.compress(bytes), BandedZlib().compress(bytes));
+    }
+  }
+}
+
 TEST_F(GridExport, KeepsTheGridsAsFiles) {
   run(8);
   for (const char* file : {"low.pgm", "low.yaml", "low.png", "tall.pgm", "tall.yaml", "tall.png"})

@@ -56,7 +56,8 @@ PathTally plan_in_grid(int seed, int errands, const Body& body) {
   const test::TemporaryFolder folder;
   const std::string log = (folder / "grid.lcm").string();
   bus::EventLogWriter writer(log);
-  writer.write(kGrid, 1, services::to_pixel_map(grid, {.utime_us = 1}));
+  services::BandedZlib zlib;
+  writer.write(kGrid, 1, services::to_pixel_map(grid, {.utime_us = 1}, zlib));
   writer.close();
   simulation::Random random(4716, static_cast<std::uint64_t>(seed));
   PathTally tally;
