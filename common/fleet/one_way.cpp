@@ -53,13 +53,18 @@ void OneWay::tick(std::int64_t now_us) {
   }
 }
 
-OneWay::Stream* OneWay::stream_of(const std::string& robot, const std::string& name,
-                                  const std::string& channel) {
-  if (const auto known = streams_.find(channel); known != streams_.end()) return &known->second;
+const RelayChannel* OneWay::row_of(const std::string& robot, const std::string& name) const {
   const auto row = std::ranges::find_if(rows_, [&](const RelayChannel& r) {
     return bus::matches(r.name, name) && (robot.empty() || bus::matches(r.robot, robot));
   });
-  if (row == rows_.end()) return nullptr;
+  return row == rows_.end() ? nullptr : &*row;
+}
+
+OneWay::Stream* OneWay::stream_of(const std::string& robot, const std::string& name,
+                                  const std::string& channel) {
+  if (const auto known = streams_.find(channel); known != streams_.end()) return &known->second;
+  const RelayChannel* row = row_of(robot, name);
+  if (row == nullptr) return nullptr;
   if (streams_.size() >= kMostChannels) {
     ++counters_["too_many_channels"];
     return nullptr;

@@ -35,6 +35,9 @@ class OneWay {
   void take(const std::string& robot, const std::string& name, const std::string& channel,
             bus::Bytes bytes, std::int64_t now_us);
 
+  /// The row that takes channel `name` of a robot, as take() has it; null when none does.
+  const RelayChannel* row_of(const std::string& robot, const std::string& name) const;
+
   /// Passes on what may go now.
   void tick(std::int64_t now_us);
 

@@ -1,8 +1,12 @@
 #include "services/relay/relay_service.h"
 
 #include <fmt/core.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <stdexcept>
+#include <vector>
+#include <voxlist/health_t.hpp>
 
 #include "voxlist/bus/channel_pattern.h"
 #include "voxlist/bus/health.h"
@@ -17,6 +21,12 @@ constexpr std::int64_t kReportPeriod_us = 1'000'000;
 
 // A trouble is told for so long after it was last seen, and a robot counts as there (us).
 constexpr std::int64_t kLasting_us = 5'000'000;
+
+// What got lost while a robot was not heard for so long is not counted any more (us).
+constexpr std::int64_t kForgotten_us = 600'000'000;
+
+// Behind a robot's name: how much its relay has sent. No row can name it, for it has a slash.
+constexpr const char* kSentCounts = "RELAY/SENT";
 
 // Robots that are told apart: their names come from the network.
 constexpr std::size_t kMostRobots = 1000;
@@ -35,7 +45,7 @@ std::vector<std::string> patterns_out(const std::vector<Row>& rows) {
 }
 
 std::vector<std::string> patterns_in(const std::string& robot, const std::vector<Row>& rows) {
-  std::vector<std::string> patterns = {robot + "/*"};
+  std::vector<std::string> patterns = {robot + "/*", std::string("*/") + kSentCounts};
   for (const Row& row : rows)
     if (row.direction == fleet::Direction::kIn) patterns.push_back(row.robot + "/" + row.name);
   return patterns;
@@ -87,13 +97,47 @@ void RelayService::take_from_fleet(const std::string& wire_name, bus::Bytes byte
     ++own_heard_;
     return;
   }
-  if (robots_.size() < kMostRobots || robots_.contains(robot)) robots_[robot] = now_us_;
+  if (peers_.size() >= kMostRobots && !peers_.contains(robot)) return;
+  Peer& peer = peers_[robot];
+  peer.heard_us = now_us_;
+  if (name == kSentCounts) return take_sent_counts(robot, bytes);
   arrival_us_ = fleet_.arrival_utime_us();
+  if (in_.row_of(robot, name) != nullptr) peer.losses.hear(name);
   in_.take(robot, name, wire_name, bytes, now_us_);
+}
+
+void RelayService::take_sent_counts(const std::string& robot, bus::Bytes bytes) {
+  health_t message{};
+  if (bus::decode(bytes, message) != bus::Fault::kNone)
+    return health_.count("malformed_sent_counts");
+  fleet::SentCounts sent;
+  for (const counter_t& counter : message.counters)
+    if (in_.row_of(robot, counter.name) != nullptr) sent[counter.name] = counter.count;
+  for (const auto& [name, count] : peers_[robot].losses.told(message.pid, sent))
+    health_.count("in/" + in_.row_of(robot, name)->name + "/lost_on_the_way", count);
+}
+
+void RelayService::send_sent_counts() {
+  health_t message{};
+  message.utime = now_us_;
+  message.service = "relay";
+  message.pid = getpid();
+  for (const auto& [name, count] : sent_by_channel_) {
+    counter_t counter{};
+    counter.name = name;
+    counter.count = count;
+    message.counters.push_back(counter);
+  }
+  message.n_counters = static_cast<std::int32_t>(message.counters.size());
+  std::vector<std::uint8_t> bytes;
+  if (bus::encode(message, bytes) != bus::Fault::kNone) return;
+  ++sent_;
+  fleet_.publish_encoded(robot_ + "/" + kSentCounts, bytes);
 }
 
 void RelayService::send_to_fleet(const std::string& channel, bus::Bytes bytes) {
   ++sent_;
+  ++sent_by_channel_[channel.substr(robot_.size() + 1)];
   fleet_.publish_encoded(channel, bytes);
 }
 
@@ -118,8 +162,12 @@ void RelayService::report() {
   tell("in/", in_.counters());
   report_traffic();
   look_for_namesakes();
-  std::erase_if(robots_, [&](const auto& robot) { return now_us_ - robot.second > kLasting_us; });
-  health_.gauge("robots_heard", static_cast<double>(robots_.size()));
+  send_sent_counts();
+  std::erase_if(peers_,
+                [&](const auto& peer) { return now_us_ - peer.second.heard_us > kForgotten_us; });
+  const auto there = std::ranges::count_if(
+      peers_, [&](const auto& peer) { return now_us_ - peer.second.heard_us <= kLasting_us; });
+  health_.gauge("robots_heard", static_cast<double>(there));
 }
 
 void RelayService::report_traffic() {
@@ -133,9 +181,10 @@ void RelayService::report_traffic() {
   tell(dropped_, traffic.dropped_packets, "fleet_packets_without_room",
        "packets of the fleet found no room here, their messages are lost: allow more with sysctl "
        "-w net.core.rmem_max=8000000");
-  tell(incomplete_, traffic.incomplete_packets, "fleet_packets_incomplete",
-       "packets of the fleet came without all their fragments, their messages are lost: its network "
-       "loses some");
+  tell(
+      incomplete_, traffic.incomplete_packets, "fleet_packets_incomplete",
+      "packets of the fleet came without all their fragments, their messages are lost: its network "
+      "loses some");
 }
 
 // Of what this robot sends it hears each message once, as anyone does. More than that is another's.

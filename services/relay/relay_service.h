@@ -6,6 +6,7 @@
 #include <string>
 
 #include "voxlist/bus/bus.h"
+#include "voxlist/fleet/loss_count.h"
 #include "voxlist/fleet/one_way.h"
 #include "voxlist/fleet/relay_config.h"
 
@@ -18,6 +19,9 @@ namespace voxlist::services {
 /// Passes the robot's channels on to the fleet's bus as ROBOT/CHANNEL, and those of other robots to
 /// the robot's bus, by the same name. Nothing goes round: what came in has a / in its name, and
 /// only names without go out; and what has this robot's own name never comes in.
+///
+/// On ROBOT/RELAY/SENT (health_t) each relay tells the others once a second how many messages of
+/// each channel it has sent, so that they can count what got lost on the way.
 class RelayService {
  public:
   /// Throws std::runtime_error when the fleet's network cannot be opened.
@@ -40,7 +44,15 @@ class RelayService {
     std::optional<std::int64_t> last_us;
   };
 
+  // Another robot, as long as it is heard.
+  struct Peer {
+    std::int64_t heard_us = 0;
+    fleet::LossCount losses;
+  };
+
   void take_from_fleet(const std::string& wire_name, bus::Bytes bytes);
+  void take_sent_counts(const std::string& robot, bus::Bytes bytes);
+  void send_sent_counts();
   void send_to_fleet(const std::string& channel, bus::Bytes bytes);
   void send_to_robot(const std::string& channel, bus::Bytes bytes);
   void report();
@@ -58,8 +70,9 @@ class RelayService {
   std::int64_t now_us_ = 0;
   std::optional<std::int64_t> arrival_us_;  // of the message that came last
   std::optional<std::int64_t> reported_us_;
-  bus::Counters told_;                          // of what HEALTH has counted
-  std::map<std::string, std::int64_t> robots_;  // those that were heard, and when
+  bus::Counters told_;  // of what HEALTH has counted
+  std::map<std::string, Peer> peers_;
+  fleet::SentCounts sent_by_channel_;
   Trouble unsent_, dropped_, incomplete_, namesakes_;
   std::int64_t sent_ = 0, own_heard_ = 0;
 };

@@ -6,8 +6,8 @@
 #include <voxlist/pointcloud_t.hpp>
 #include <voxlist/pose_t.hpp>
 
-#include "tests/bus/private_network.h"
 #include "services/relay/relay_service.h"
+#include "tests/bus/private_network.h"
 #include "voxlist/bus/bus.h"
 #include "voxlist/bus/health.h"
 
@@ -95,6 +95,8 @@ TEST(Relay, DISABLED_JoinsThreeRobots) {
     EXPECT_GE(in_fleet.count(name + "/GRID_low"), 2U);
     EXPECT_LE(in_fleet.count(name + "/GRID_low"), 3U);
   }
+  for (const std::string name : {"a", "b", "c"})
+    EXPECT_EQ(in_fleet.erase(name + "/RELAY/SENT"), 2U);
   for (const std::string& channel : in_fleet) {
     EXPECT_EQ(channel.find("CLOUD"), std::string::npos) << channel;
     EXPECT_EQ(std::count(channel.begin(), channel.end(), '/'), 1) << channel;
@@ -105,6 +107,8 @@ TEST(Relay, DISABLED_JoinsThreeRobots) {
   EXPECT_EQ(b.times_heard("c/POSE"), static_cast<std::ptrdiff_t>(in_fleet.count("c/POSE")));
   EXPECT_EQ(a.times_heard("a/POSE"), 0);
   EXPECT_EQ(a.times_heard("b/GRID_low"), 0) << "it does not come in by default";
+  EXPECT_EQ(a.times_heard("b/RELAY/SENT"), 0) << "that is for relays alone";
+  EXPECT_EQ(a.counted("in/POSE/lost_on_the_way"), 0);
   EXPECT_EQ(a.times_heard("POSE"), 20) << "its own bus stays as it was";
   EXPECT_EQ(a.counted("out/POSE/passed") + a.counted("out/POSE/held_back"), 20);
   EXPECT_EQ(a.counted("namesakes_messages"), 0);
@@ -120,6 +124,30 @@ TEST(Relay, DISABLED_TellsOfARobotOfTheSameName) {
   EXPECT_GT(a.counted("namesakes_messages"), 0);
   EXPECT_NE(a.health.message().find("another robot of this name"), std::string::npos);
   EXPECT_EQ(a.times_heard("a/POSE"), 0);
+}
+
+health_t sent_so_far(std::int64_t poses) {
+  counter_t counter{};
+  counter.name = "POSE";
+  counter.count = poses;
+  health_t message{};
+  message.n_counters = 1;
+  message.counters = {counter};
+  return message;
+}
+
+TEST(Relay, DISABLED_CountsWhatGotLostOnTheWay) {
+  Robot a("a", 7661);
+  Bus fleet(on_port(7670));
+  const bus::Channel<pose_t> pose{"b/POSE"};
+  const bus::Channel<health_t> sent{"b/RELAY/SENT"};
+  fleet.publish(sent, sent_so_far(100));
+  for (int i = 0; i < 5; ++i) fleet.publish(pose, pose_at(i));
+  fleet.publish(sent, sent_so_far(108));
+  fleet.publish(bus::Channel<pose_t>{sent.name}, pose_at(1));
+  for (int i = 0; i < 100; ++i) a.step(i * 10'000);
+  EXPECT_EQ(a.counted("in/POSE/lost_on_the_way"), 3);
+  EXPECT_EQ(a.counted("malformed_sent_counts"), 1);
 }
 
 TEST(Relay, InAPrivateNetwork) {
