@@ -30,16 +30,14 @@ Trajectory motion(const Building& building, const SimulationConfig& config) {
 // What a robot keeps from another's middle at least (m): both have a radius of 0.25 m.
 constexpr double kNeverNearer_m = 0.6;
 
-bool meet(const Trajectory& one, const Trajectory& other) {
-  const double end_s = std::max(one.duration_s(), other.duration_s());
+bool meet(const Trajectory& one, const Trajectory& other, double end_s) {
   for (double t_s = 0.0; t_s <= end_s; t_s += 0.1)
     if (distance_m(one.at(t_s), other.at(t_s)) < kNeverNearer_m) return true;
   return false;
 }
 
-// The robots that share the building with this one. Each drives its own share of the tour, at the
-// same time.
-std::vector<MovingBody> others(const Building& building, const Trajectory& own,
+// The robots that share the building with this one. Each begins elsewhere in the same tour.
+std::vector<MovingBody> others(const Building& building, const Trajectory& own, double duration_s,
                                const SimulationConfig& config) {
   std::vector<MovingBody> robots;
   if (config.share.robots > 1 && config.stand_in_room >= 0)
@@ -48,7 +46,7 @@ std::vector<MovingBody> others(const Building& building, const Trajectory& own,
     if (robot == config.share.robot) continue;
     Trajectory way =
         drive(plan_tour(building, config.tour, {config.share.robots, robot}), config.drive);
-    if (meet(own, way))
+    if (meet(own, way, duration_s))
       throw std::invalid_argument("simulation: robots would run into each other in this building");
     robots.push_back({std::move(way), config.scanner.body});
   }
@@ -98,7 +96,7 @@ SimulatedRun::SimulatedRun(const SimulationConfig& config, const Building& build
       world_(building,
              walk(building, truth_, duration_s_, config.people,
                   static_cast<std::uint64_t>(config.seed)),
-             others(building, truth_, config)),
+             others(building, truth_, duration_s_, config)),
       scanner_(world_, truth_, with_faults(config), static_cast<std::uint64_t>(config.seed)) {}
 
 std::optional<SimulatedEvent> SimulatedRun::next() {

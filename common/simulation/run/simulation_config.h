@@ -76,7 +76,7 @@ struct SimulationConfig {
       1'000'000'000);
     v("objects", building.objects, "small things on each room's floor, tried for", 0, 100);
     v("robots", share.robots,
-      "that share the building, each with its own rooms, and see each other", 1, 10);
+      "that share the building, each elsewhere in the same tour, and see each other", 1, 10);
     v("robot", share.robot, "which of them this one is, from 0", 0, 9);
     v("people", people.count, "who walk from room to room", 0, 50);
     v("odometry_errors", odometry_errors, "times the wheels' usual errors; 0: they are perfect",

@@ -10,32 +10,30 @@ using Eigen::Vector2d;
 using Path = std::vector<Vector2d>;
 
 // Rooms in the order of a tour: down one side of the corridor and back on the other.
-Path stops(std::vector<Room> rooms, const Vector2d& start) {
+std::vector<Room> rooms_in_order(std::vector<Room> rooms) {
   const auto left = std::stable_partition(rooms.begin(), rooms.end(),
                                           [](const Room& room) { return room.door.y() > 0.0; });
   std::reverse(left, rooms.end());
-  Path stops{start};
-  for (const Room& room : rooms) stops.push_back(room.centre());
-  stops.push_back(start);
-  return stops;
+  return rooms;
 }
 
-// The rooms of one share, and a place in the middle of the corridor before the first of them.
+// From the origin through all rooms and back; or from the corridor before the first room of a
+// share.
 Path stops(const Building& building, const TourShare& share) {
   const auto robots = static_cast<std::size_t>(share.robots);
   const auto robot = static_cast<std::size_t>(share.robot);
   if (share.robots < 1 || share.robot < 0 || robot >= robots)
     throw std::invalid_argument("tour: there is no such robot");
-  if (robots == 1) return stops(building.rooms, Vector2d::Zero());
-  if (building.rooms.size() < robots)
+  if (robots > 1 && building.rooms.size() < robots)
     throw std::invalid_argument("tour: there are fewer rooms than robots");
-  std::vector<Room> rooms = building.rooms;
-  std::ranges::stable_sort(rooms, {}, [](const Room& room) { return room.door.x(); });
-  const auto at = [&](std::size_t i) {
-    return rooms.begin() + static_cast<std::ptrdiff_t>(i * rooms.size() / robots);
-  };
-  const std::vector<Room> own(at(robot), at(robot + 1));
-  return stops(own, {own.front().door.x(), 0.0});
+  std::vector<Room> rooms = rooms_in_order(building.rooms);
+  const std::size_t before = robot * rooms.size() / robots;
+  std::ranges::rotate(rooms, rooms.begin() + static_cast<std::ptrdiff_t>(before));
+  const Vector2d start = robots == 1 ? Vector2d::Zero() : Vector2d(rooms.front().door.x(), 0.0);
+  Path stops{start};
+  for (const Room& room : rooms) stops.push_back(room.centre());
+  stops.push_back(start);
+  return stops;
 }
 
 }  // namespace

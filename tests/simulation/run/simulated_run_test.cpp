@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <stdexcept>
 #include <variant>
 #include <vector>
@@ -210,6 +211,45 @@ TEST(SimulatedRun, HasPerfectWheelsWhenTheirErrorsAreNone) {
   config.odometry_errors = 0.0;
   const SimulatedRun run(config);
   EXPECT_LT(distance_m(run.odometry().at(60.0), run.truth().at(60.0)), 1e-6);
+}
+
+// Which of three robots, in a building where they can pass each other.
+SimulationConfig one_of_three(int robot) {
+  SimulationConfig config;
+  config.building.length_m = 12.0;
+  config.building.depth_m = 12.0;
+  config.building.corridor_width_m = 4.0;
+  config.share = {3, robot};
+  return config;
+}
+
+// How often, once a second, a ray from one robot's scanner to the other's middle ends on its body.
+int times_seen(const SimulatedRun& one, const SimulatedRun& other) {
+  constexpr double kScanner_m = 0.6, kMiddle_m = 0.3, kBody_m = 0.4;
+  int times = 0;
+  for (double t_s = 0.0; t_s < one.duration_s(); t_s += 1.0) {
+    const Pose2 from = one.truth().at(t_s), to = other.truth().at(t_s);
+    const Eigen::Vector3d start(from.x_m, from.y_m, kScanner_m), end(to.x_m, to.y_m, kMiddle_m);
+    const double distance_m = (end - start).norm();
+    const auto range_m = one.world().range(start, (end - start) / distance_m, t_s);
+    if (range_m && *range_m<distance_m&& * range_m> distance_m - kBody_m) ++times;
+  }
+  return times;
+}
+
+TEST(SimulatedRun, RobotsThatShareABuildingSeeEachOther) {
+  const std::array<SimulatedRun, 3> runs{
+      SimulatedRun(one_of_three(0)), SimulatedRun(one_of_three(1)), SimulatedRun(one_of_three(2))};
+  for (const SimulatedRun& one : runs)
+    for (const SimulatedRun& other : runs)
+      EXPECT_TRUE(&one == &other || times_seen(one, other) >= 5);
+}
+
+TEST(SimulatedRun, RefusesRobotsThatWouldRunIntoEachOther) {
+  SimulationConfig narrow = one_of_three(0);
+  narrow.building.corridor_width_m = 1.2;
+  EXPECT_THROW(SimulatedRun{narrow}, std::invalid_argument);
+  EXPECT_THROW(SimulatedRun{one_of_three(3)}, std::invalid_argument);
 }
 
 }  // namespace
