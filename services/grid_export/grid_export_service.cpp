@@ -21,7 +21,8 @@ namespace {
 
 constexpr std::int64_t kSecond_us = 1'000'000;
 
-// Grids are made this often at most, and for no more than a third of the time.
+// Grids are made this often at most, and for no more than a third of the time; where the way alone
+// has grown, which seldom changes one, once a second.
 constexpr std::int64_t kPeriod_us = 100'000;
 constexpr std::int64_t kShare = 3;
 
@@ -127,10 +128,17 @@ bool GridExportService::is_whole() const {
 
 bool GridExportService::is_due(std::int64_t now_us) const {
   if (!is_whole()) return false;
+  const auto is_over = [&](const std::optional<std::int64_t>& since_us, std::int64_t period_us) {
+    return !since_us || now_us - *since_us >= std::max(period_us, kShare * took_us_);
+  };
+  if (!is_made()) return is_over(followed_us_, kPeriod_us);
+  return way_has_grown_ && is_over(made_us_, kSecond_us);
+}
+
+// The grids that were sent last are of the map as it is.
+bool GridExportService::is_made() const {
   const auto& held = *occupied_.follower.held();
-  const bool is_made = held.map_id == source_.map_id && held.version == source_.version;
-  if (is_made && !way_has_grown_) return false;
-  return !made_us_ || now_us - *made_us_ >= std::max(kPeriod_us, kShare * took_us_);
+  return held.map_id == source_.map_id && held.version == source_.version;
 }
 
 void GridExportService::bring_up_to_date() {
@@ -149,11 +157,14 @@ void GridExportService::make(std::int64_t now_us) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
   bring_up_to_date();
+  const bool is_newer = !is_made();
   const auto& held = *occupied_.follower.held();
   source_ = {held.utime_us, held.map_id, held.version};
-  if (builder_.update()) is_saved_ = folder_.empty();
-  grids_.send(builder_.grids(), source_, now_us);
+  const bool has_changed = builder_.update().has_value();
+  if (has_changed) is_saved_ = folder_.empty();
+  if (has_changed || is_newer) grids_.send(builder_.grids(), source_, now_us);
   made_us_ = now_us;
+  if (is_newer) followed_us_ = now_us;
   took_us_ = std::chrono::duration_cast<std::chrono::microseconds>(Clock::now() - start).count();
   health_.add_latency_us(took_us_);
 }

@@ -77,6 +77,7 @@ class GridExportService {
   void ask(Input& input, std::int64_t now_us);
   bool is_whole() const;
   bool is_due(std::int64_t now_us) const;
+  bool is_made() const;
   void make(std::int64_t now_us);
   void bring_up_to_date();
   void save(std::int64_t now_us);
@@ -95,7 +96,7 @@ class GridExportService {
   std::optional<std::int64_t> map_id_;
   std::int64_t moves_ = 0, edits_ = 0;
   bool way_has_grown_ = false;
-  std::optional<std::int64_t> made_us_, saved_us_;
+  std::optional<std::int64_t> made_us_, followed_us_, saved_us_;  // followed: a new map
   std::int64_t took_us_ = 0;
   bool is_saved_ = true;
   std::string save_error_;

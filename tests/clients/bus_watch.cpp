@@ -1,8 +1,13 @@
 // Writes a line for each message that tells how the services fare, as it comes, until it is ended:
-//   TIME_MS LOCALISATION STATE UTIME MAP_ID CONFIDENCE OVERLAP ELAPSED_US (OVERLAP: of the first
-//   mode) TIME_MS KEYFRAME INDEX MAP_ID TIME_MS MAP_UPDATE VERSION MAP_ID ANSWERS TIME_MS HEALTH
-//   SERVICE PID STATE COUNTER=N... MESSAGE
-// TIME_MS: of the wall clock, on arrival. Usage: bus_watch [SECONDS]: ends by itself after that.
+//   TIME_MS LOCALISATION STATE UTIME MAP_ID CONFIDENCE OVERLAP ELAPSED_US
+//   TIME_MS KEYFRAME INDEX MAP_ID
+//   TIME_MS MAP_UPDATE VERSION MAP_ID ANSWERS
+//   TIME_MS FREE_SPACE VERSION MAP_ID ANSWERS
+//   TIME_MS TRAVERSABILITY_NAME VERSION MAP_ID
+//   TIME_MS HEALTH SERVICE PID STATE COUNTER=N... MESSAGE
+//
+// OVERLAP: of the first mode. TIME_MS: of the wall clock, on arrival. Usage: bus_watch [SECONDS]:
+// ends by itself after that.
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -14,6 +19,7 @@
 #include <voxlist/keyframe_t.hpp>
 #include <voxlist/localisation_t.hpp>
 #include <voxlist/map_update_t.hpp>
+#include <voxlist/traversability_t.hpp>
 
 namespace {
 
@@ -41,6 +47,11 @@ void on_map_update(const lcm::ReceiveBuffer* buffer, const std::string& channel,
   line(buffer, channel) << m->version << ' ' << m->map_id << ' ' << m->answers << std::endl;
 }
 
+void on_traversability(const lcm::ReceiveBuffer* buffer, const std::string& channel,
+                       const voxlist::traversability_t* m, void*) {
+  line(buffer, channel) << m->version << ' ' << m->map_id << std::endl;
+}
+
 void on_health(const lcm::ReceiveBuffer* buffer, const std::string& channel,
                const voxlist::health_t* m, void*) {
   line(buffer, channel) << m->service << ' ' << m->pid << ' ' << m->state;
@@ -61,6 +72,8 @@ int main(int argc, char** argv) {
   lcm.subscribeFunction("LOCALISATION", &on_localisation, nothing)->setQueueCapacity(1000);
   lcm.subscribeFunction("KEYFRAME", &on_keyframe, nothing)->setQueueCapacity(1000);
   lcm.subscribeFunction("MAP_UPDATE", &on_map_update, nothing)->setQueueCapacity(1000);
+  lcm.subscribeFunction("FREE_SPACE", &on_map_update, nothing)->setQueueCapacity(1000);
+  lcm.subscribeFunction("TRAVERSABILITY_.*", &on_traversability, nothing)->setQueueCapacity(1000);
   lcm.subscribeFunction("HEALTH", &on_health, nothing)->setQueueCapacity(1000);
   const auto end = std::chrono::steady_clock::now() + timeout;
   while (std::chrono::steady_clock::now() < end) lcm.handleTimeout(100);
