@@ -20,7 +20,7 @@ check() {
     echo "ok: $claim"
   else
     echo "FAILED: $claim"
-    cat "$work/output"
+    uniq "$work/output"
     exit 1
   fi
 }

@@ -41,9 +41,12 @@ constexpr std::array kOthers = {bus::Channel<pose_t>{"robot_0/TRUTH"},
                                 bus::Channel<pose_t>{"robot_1/TRUTH"},
                                 bus::Channel<pose_t>{"robot_2/TRUTH"}};
 
+constexpr std::int64_t kApart_us = 50'000;
+
 volatile std::sig_atomic_t ended = 0;
 
-// Poses by time; the later one of the two that a time is between, 20 ms apart.
+// Poses by time; the later one of the two that a time is between, 20 ms apart. None where some got
+// lost.
 class Track {
  public:
   void add(const pose_t& message) {
@@ -52,7 +55,8 @@ class Track {
 
   std::optional<Pose2> at(std::int64_t utime_us) const {
     const auto found = poses_.lower_bound(utime_us);
-    return found == poses_.end() ? std::nullopt : std::optional(found->second);
+    if (found == poses_.end() || found->first > utime_us + kApart_us) return std::nullopt;
+    return found->second;
   }
 
   bool empty() const { return poses_.empty(); }
