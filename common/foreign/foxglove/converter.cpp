@@ -105,16 +105,15 @@ void Converter::take(const std::string& channel, const pose_t& message) {
   if (!pose) return tell(kPose, 0, std::nullopt, channel);
   const bool is_odometry = channel == bus::kOdometry.name, is_pose = channel == bus::kPose.name;
   const Stamp stamp{message.utime, is_odometry ? kOdomFrame : kMapFrame};
-  tell(is_odometry ? kOdometry
-       : is_pose   ? kPose
-                   : kTruth,
-       message.utime, pose_in_frame(stamp, pose->pose), channel);
+  const Topic& topic = is_odometry ? kOdometry : is_pose ? kPose : kTruth;
+  if (audience_.wants(topic)) tell(topic, message.utime, pose_in_frame(stamp, pose->pose), channel);
   if (is_pose) follow(message.utime, pose->pose);
 }
 
 void Converter::follow(std::int64_t utime_us, const Pose3& T_map_base) {
-  audience_.tell(kTransforms, utime_us,
-                 frame_transform({utime_us, kMapFrame}, kBaseFrame, T_map_base));
+  if (audience_.wants(kTransforms))
+    audience_.tell(kTransforms, utime_us,
+                   frame_transform({utime_us, kMapFrame}, kBaseFrame, T_map_base));
   const Eigen::Vector3d at = T_map_base.translation();
   const bool is_new = !path_end_ || (at - *path_end_).norm() >= kPathStep_m;
   if (!is_new || path_.data.size() >= kMostPathBytes) return;
@@ -213,15 +212,15 @@ void Converter::take(const bus::MapChange& change) {
 }
 
 void Converter::tick(std::int64_t utime_us) {
-  if (map_retelling_.is_due(map_.blocks(), utime_us) && audience_.wants(kMap)) tell_map();
+  if (map_retelling_.is_due(map_.blocks(), utime_us) && audience_.wants(kMap)) tell_map(utime_us);
   const std::size_t points = path_.data.size() / stride_of(path_.fields);
   if (path_retelling_.is_due(points, utime_us) && audience_.wants(kPath)) tell_path(utime_us);
-  if (space_retelling_.is_due(space_.blocks(), utime_us) && wants_space()) tell_space();
+  if (space_retelling_.is_due(space_.blocks(), utime_us) && wants_space()) tell_space(utime_us);
 }
 
-void Converter::tell_map() {
+void Converter::tell_map(std::int64_t now_us) {
   audience_.tell(kMap, map_.utime_us(), point_cloud({map_.utime_us(), kMapFrame}, map_.points()));
-  map_retelling_.told(map_.utime_us());
+  map_retelling_.told(now_us);
 }
 
 void Converter::tell_path(std::int64_t utime_us) {
@@ -229,15 +228,15 @@ void Converter::tell_path(std::int64_t utime_us) {
   path_retelling_.told(utime_us);
 }
 
-void Converter::tell_space() {
+void Converter::tell_space(std::int64_t now_us) {
   const Stamp stamp{space_.utime_us(), kMapFrame};
   audience_.tell(kSpace, stamp.utime_us, point_cloud(stamp, space_.points()));
-  space_retelling_.told(stamp.utime_us);
+  space_retelling_.told(now_us);
 }
 
 void Converter::tell_rest() {
-  if (space_retelling_.is_new()) tell_space();
-  if (map_retelling_.is_new()) tell_map();
+  if (space_retelling_.is_new()) tell_space(space_.utime_us());
+  if (map_retelling_.is_new()) tell_map(map_.utime_us());
   if (path_retelling_.is_new()) tell_path(path_utime_us_);
 }
 

@@ -76,9 +76,9 @@ class Converter {
   void tell(const Topic& topic, std::int64_t utime_us, std::optional<std::string> message,
             const std::string& channel);
   void follow(std::int64_t utime_us, const Pose3& T_map_base);
-  void tell_map();
+  void tell_map(std::int64_t now_us);
   void tell_path(std::int64_t utime_us);
-  void tell_space();
+  void tell_space(std::int64_t now_us);
 
   Audience& audience_;
   bus::MapAssembler assembler_, space_assembler_;

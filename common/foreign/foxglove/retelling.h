@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <optional>
 
 namespace voxlist::foreign {
@@ -26,7 +27,8 @@ class Retelling {
 
   bool is_due(std::size_t size, std::int64_t utime_us) const {
     const auto wanted = config_.share * static_cast<double>(size);
-    const bool rests = last_us_ && utime_us >= *last_us_ && utime_us - *last_us_ < config_.after_us;
+    // Now is a little later than the data's time: both ways it rests.
+    const bool rests = last_us_ && std::abs(utime_us - *last_us_) < config_.after_us;
     return is_new() && static_cast<double>(changed_) >= wanted && !rests;
   }
 
