@@ -32,9 +32,8 @@ const bus = new Connection((told) => {
   if (told.topic === "blocks") map.take(told.data, told.bytes);
   else if (told.topic === "space") space.take(told.data, told.bytes);
   else if (told.topic === "map" && told.data.epoch !== map.epoch) map.start_over(told.data.epoch);
-  else if (told.topic === "hello") start_session();
+  else if (told.topic === "hello" || told.topic === "rewound") start_session();
   else if (told.topic === "clock") bus.run_at(told.data.speed);
-  else if (told.topic === "rewound") start_session();
   else if (told.topic === "path") drop_path_before(told.data.first);
   else if (told.topic === "loop") note_loop(told);
   else if (told.topic.startsWith("grid/")) grids.take(told).then(() => (dirty = true));
@@ -80,8 +79,7 @@ function fit() {
   const level = map.shown(Infinity);
   if (level.chunks.size === 0) return;
   camera.fit(...level.box(), innerWidth > 760 ? 1 - 300 / innerWidth : 1);
-  fits = true;
-  dirty = true;
+  fits = dirty = true;
 }
 
 /** @type {Record<string, () => void>} */

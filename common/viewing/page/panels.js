@@ -105,7 +105,8 @@ export function show_map(bus, map, renderer) {
   if (!told?.version) return write(element("map-line"), "no map yet");
   const drawn = map.levels[0].voxels || map.levels[1].voxels;
   write(element("map-line"), `map ${told.keyframes} keyframes, ${drawn.toLocaleString("en")} voxels of ${told.edge_m.toFixed(2)} m, ` +
-      `${told.moves} loops, ${told.edits} edits; changed ${age_text(bus.age_s("map"))} ago; ${renderer}`);
+      `${told.moves} loops, ${told.edits} edits; changed ${age_text(bus.age_s("map"))} ago; ` +
+      (bus.data("octomap") ? `OctoMap of ${bus.data("octomap").keyframes} keyframes; ` : "") + renderer);
 }
 
 let toast_timer = 0;

@@ -1,6 +1,6 @@
 // A recording's time: play, speed, and where something happened in it.
 import { css } from "./palette.js";
-import { element } from "./panels.js";
+import { element, toast } from "./panels.js";
 
 /**
  * Times (us) of a recording, and what happened in it.
@@ -50,7 +50,8 @@ export class Timebar {
     if (!recording || !clock) return;
     const times = what === "lost" ? recording.lost.map(([from]) => from) : recording[/** @type {"loop" | "warning"} */ (what)];
     const next = times.find((time) => time > clock.utime_us + 1.5e6) ?? times[0];
-    if (next !== undefined) this.seek(next - 1e6);
+    if (next === undefined) return toast(`This recording has no ${what === "lost" ? "LOST" : what}.`);
+    this.seek(next - 1e6);
   }
 
   /** @param {number} x pixels */
