@@ -122,6 +122,7 @@ void MapperService::take_localisation(const localisation_t& message) {
   decide(message);
   send_change(before);
   join_apart(kApartAtOnce);
+  arrival_us_ = bus_.arrival_utime_us();
 }
 
 // A cloud is decided on once: who speaks of it again, and otherwise, is not heard.
@@ -253,6 +254,8 @@ void MapperService::take_health(const health_t& message) {
 void MapperService::tick(std::int64_t now_us) {
   if (now_us_ == 0) send_word(0);  // whoever has another map drops it
   now_us_ = now_us;
+  if (arrival_us_) health_.add_latency_us(now_us - *arrival_us_);
+  arrival_us_.reset();
   cloud_input_.tick(now_us);
   edit_channel_.tick(
       now_us, [this](const bus::EditWish& wish) { return edit(wish); },

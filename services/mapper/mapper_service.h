@@ -159,6 +159,7 @@ class MapperService {
   std::int64_t resends_queued_ = 0;
   bool save_wanted_ = false;
   std::optional<std::int64_t> next_save_us_;
+  std::optional<std::int64_t> arrival_us_;  // of what was handled since the last tick
   std::optional<std::int64_t> last_announced_us_;
   std::int64_t now_us_ = 0;
   std::optional<std::int64_t> last_look_us_;

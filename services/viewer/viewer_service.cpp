@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 #include <variant>
 #include <voxlist/health_t.hpp>
 #include <voxlist/keyframe_t.hpp>
@@ -77,9 +78,18 @@ ViewerService::ViewerService(bus::Bus& bus, bus::Health& health, const ViewerSer
       0);
 }
 
+// The longest of what waited before a tick tells how soon the bus is heard.
+template <class M, class Handle>
+void ViewerService::listen(bus::Channel<M> channel, Handle handle) {
+  bus_.subscribe(channel, [this, handle = std::move(handle)](const M& message) {
+    handle(message);
+    if (!arrival_us_) arrival_us_ = bus_.arrival_utime_us();
+  });
+}
+
 template <class M>
 void ViewerService::show(bus::Channel<M> channel) {
-  bus_.subscribe(channel, [this, name = std::string(channel.name)](const M& message) {
+  listen(channel, [this, name = std::string(channel.name)](const M& message) {
     viewer_.scene().take(message, now_us_);
     foxglove_.take(bus::Channel<M>{name.c_str()}, message);
   });
@@ -96,24 +106,24 @@ void ViewerService::subscribe(const planning::RobotProfiles& robots) {
     const std::string channel = "TRAVERSABILITY_" + robot.name;
     show(bus::Channel<traversability_t>{channel.c_str()});
   }
-  bus_.subscribe(bus::kMapUpdate, [this](const map_update_t& m) { take(m); });
-  bus_.subscribe(bus::kFreeSpace, [this](const map_update_t& m) {
+  listen(bus::kMapUpdate, [this](const map_update_t& m) { take(m); });
+  listen(bus::kFreeSpace, [this](const map_update_t& m) {
     if (!space_follower_) return;
     for (const bus::MapChange& change : space_follower_->take(m)) {
       viewer_.take_space(change);
       foxglove_.take_space(change);
     }
   });
-  bus_.subscribe(bus::kKeyframe, [this](const keyframe_t& m) { viewer_.scene().take(m, now_us_); });
-  bus_.subscribe(bus::kCloud, [this](const pointcloud_t& m) {
+  listen(bus::kKeyframe, [this](const keyframe_t& m) { viewer_.scene().take(m, now_us_); });
+  listen(bus::kCloud, [this](const pointcloud_t& m) {
     viewer_.scene().take_cloud(m, now_us_);
     foxglove_.take(bus::kCloud, m);
   });
-  bus_.subscribe(bus::kCloudSlice, [this](const pointcloud_t& m) {
+  listen(bus::kCloudSlice, [this](const pointcloud_t& m) {
     viewer_.scene().take_slice(m, now_us_);
     foxglove_.take(bus::kCloudSlice, m);
   });
-  bus_.subscribe(bus::kMapEdits, [this](const map_edits_t& m) {
+  listen(bus::kMapEdits, [this](const map_edits_t& m) {
     if (const auto edits = bus::from_message(m)) viewer_.scene().take(*edits, now_us_);
   });
 }
@@ -127,6 +137,8 @@ void ViewerService::take(const map_update_t& message) {
 
 void ViewerService::tick(std::int64_t now_us) {
   now_us_ = now_us;
+  if (arrival_us_) health_.add_latency_us(now_us - *arrival_us_);
+  arrival_us_.reset();
   follow_map();
   follow_space();
   viewer_.tick();

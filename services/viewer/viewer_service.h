@@ -69,6 +69,8 @@ class ViewerService {
 
  private:
   void subscribe(const planning::RobotProfiles& robots);
+  template <class M, class Handle>
+  void listen(bus::Channel<M> channel, Handle handle);
   template <class M>
   void show(bus::Channel<M> channel);
   void take(const map_update_t& message);
@@ -98,7 +100,7 @@ class ViewerService {
   FoxgloveFeed foxglove_;
   Recorder recorder_;
   std::int64_t now_us_ = 0;
-  std::optional<std::int64_t> told_us_, asked_edits_us_;
+  std::optional<std::int64_t> arrival_us_, told_us_, asked_edits_us_;
   std::int64_t last_utime_us_ = 0;  // of a command
   viewing::WebServer server_;
 };
