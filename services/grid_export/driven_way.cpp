@@ -1,6 +1,9 @@
 #include "services/grid_export/driven_way.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "voxlist/bus/convert.h"
 
 namespace voxlist::services {
 namespace {
@@ -10,18 +13,33 @@ constexpr std::int64_t kAskPeriod_us = 1'000'000;
 // Poses nearer to each other tell nothing new (m).
 constexpr double kApart_m = 0.1;
 
-// Poses are kept for so long a way (20 km); then the oldest half goes, for keyframes tell of it.
-constexpr std::size_t kMostPoses = 200'000;
+// A place is so wide (m): within it the robot stands on the same columns, but for their rims.
+constexpr double kPlace_m = 0.05;
+
+// Most places that are kept; then poses are forgotten, for keyframes tell of the way.
+constexpr std::size_t kMostPlaces = 200'000;
 
 // Keyframes of a map; a word of more is no mapper's.
 constexpr std::int64_t kMostKeyframes = 10'000'000;
 
+Voxel place_of(const Eigen::Vector3d& at) {
+  const auto number = [](double m) { return static_cast<std::int32_t>(std::floor(m / kPlace_m)); };
+  return {number(at.x()), number(at.y()), number(at.z())};
+}
+
 }  // namespace
+
+void DrivenWay::forget_poses() {
+  poses_.clear();
+  places_ = Numbering<Voxel>();
+  newest_.reset();
+  is_newest_kept_ = false;
+}
 
 void DrivenWay::follow(const Map& map) {
   if (map.map_id != map_.map_id || map.moves != map_.moves) {
     keyframes_.clear();
-    poses_.clear();
+    forget_poses();
     first_missing_ = 0;
     asked_us_.reset();
   }
@@ -51,12 +69,20 @@ void DrivenWay::take(const pose_t& message) {
 
 bool DrivenWay::take(const uncertain_pose_t& message) {
   const bool is_ours = message.utime == pose_utime_us_ && message.map_id == map_.map_id;
-  if (!is_ours || !position_.allFinite()) return false;
-  if (!poses_.empty() && (poses_.back() - position_).norm() < kApart_m) return false;
-  if (poses_.size() == kMostPoses)
-    poses_.erase(poses_.begin(), poses_.begin() + static_cast<std::ptrdiff_t>(kMostPoses / 2));
-  poses_.push_back(position_);
-  return true;
+  if (!is_ours || !(position_.cwiseAbs().maxCoeff() <= bus::kMaxPosition_m)) return false;
+  if (newest_ && (*newest_ - position_).norm() < kApart_m) return false;
+  if (places_.size() >= kMostPlaces) forget_poses();
+  const std::size_t known = places_.size();
+  const bool is_new = places_.number(place_of(position_)) == known;
+  if (is_new) {
+    // After a way that was known a part begins where that ended: the robot came from there.
+    if (!is_newest_kept_) poses_.emplace_back();
+    if (!is_newest_kept_ && newest_) poses_.back().push_back(*newest_);
+    poses_.back().push_back(position_);
+  }
+  newest_ = position_;
+  is_newest_kept_ = is_new;
+  return is_new;
 }
 
 std::optional<std::int32_t> DrivenWay::due(std::int64_t now_us) {

@@ -27,10 +27,12 @@ class GridBuilder {
               const ChangedBlocks& changed_free);
 
   /// The way that a robot has driven: positions of base in the map, in the place of those before;
-  /// and what was driven since, which does not go on where the way ends. The map's origin, where
-  /// its first cloud was taken, is always one of them.
-  void drive(std::vector<Eigen::Vector3d> way, std::vector<Eigen::Vector3d> since = {}) {
-    ways_ = {std::move(way), std::move(since)};
+  /// and parts of what was driven since, none of which goes on where another ends. The map's
+  /// origin, where its first cloud was taken, is always one of them.
+  void drive(std::vector<Eigen::Vector3d> way,
+             std::vector<std::vector<Eigen::Vector3d>> since = {}) {
+    ways_ = std::move(since);
+    ways_.insert(ways_.begin(), std::move(way));
   }
 
   const std::vector<RobotProfile>& robots() const { return robots_; }

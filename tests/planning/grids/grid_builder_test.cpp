@@ -79,7 +79,7 @@ void follow(GridBuilder& builder, const DrawnMap& before, const DrawnMap& now) {
 GridBuilder anew(const Happenings& world) {
   GridBuilder builder(robots());
   builder.take(world.drawn.map, world.drawn.free);
-  builder.drive(world.way, world.since);
+  builder.drive(world.way, {world.since});
   builder.update();
   return builder;
 }
@@ -95,7 +95,7 @@ TEST(GridBuilder, HasTheSameGridsWhetherItFollowsOrBeginsAnew) {
       if (i == 11) world.way.erase(world.way.begin());
       if (i == 17) world.way.clear(), world.since = {{-3.0, 0.5, 0.0}};
       follow(followed, before, world.drawn);
-      followed.drive(world.way, world.since);
+      followed.drive(world.way, {world.since});
       const auto grids = followed.grids();
       const auto changed = followed.update();
       const GridBuilder fresh = anew(world);
