@@ -14,6 +14,16 @@ struct RandomError {
 };
 RandomError random_error(const Cloud& first, const Cloud& second);
 
+/// The same of all five surfaces, of the points between two distances from the mirror. Metres.
+struct ErrorAtDistance {
+  double from_m, to_m;
+  double rms_m = 0.0;
+  int points = 0;
+};
+
+/// Each metre of distance in which there are points enough to tell.
+std::vector<ErrorAtDistance> error_by_distance(const Cloud& first, const Cloud& second);
+
 /// Mean error of the distances between pairs of points that are 5.5 to 6.5 m apart.
 double error_on_six_metres(const std::vector<ScannerRecording::SeenPoint>& points);
 

@@ -65,7 +65,7 @@ Entry algorithm_1(const Scene& scene) {
       {"levels", "2^6 to 2^0", fmt::format("{}", levels.size()), "1.28 to 0.02 m"},
       {"spacing of the first poses", "1.24 m", "1.28 m", "the text's 1.24 is 64 x 0.02 = 1.28"},
       {"pruned below", "80 % of the mode", "80 % of w max", "as Algorithm 1 and the text say"}};
-  Table table{"What each level did",
+  Table table{"What each level did; headings by equation 1, with R the range of this scan",
               {"eps (m)", "headings", "particles", "kept", "w max", "scan turned", "look-ups",
                "best is off by", "truth among the kept", "CPU ms"},
               {}};

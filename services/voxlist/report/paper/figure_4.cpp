@@ -180,7 +180,9 @@ Entry figure_4(const Scene& scene) {
   entry.differs =
       "Truth is known here: errors are those in the building, so that they hold what the map is "
       "off by, "
-      "which the paper's need not. In a map at true poses the engine is a millimetre off: what is "
+      "which the paper's need not. The filter's answers keep the paper's limits seldom or never, "
+      "for its map "
+      "does not. In a map at true poses the engine is a millimetre off: what is "
       "left "
       "of its error above is its map's.";
   return entry;

@@ -72,6 +72,13 @@ Table table_of(const std::string& caption, const std::vector<ChanceLevel>& level
   return table;
 }
 
+// Where the deviation is greatest.
+std::string peak_of(const std::vector<ChanceLevel>& levels) {
+  const auto sd = [](const ChanceLevel& level) { return moments(level.overlaps).sd; };
+  const auto greatest = std::ranges::max_element(levels, {}, sd);
+  return fmt::format("greatest at {:.2f} m: {:.1f}", greatest->resolution_m, sd(*greatest));
+}
+
 std::string range_of(const std::vector<ChanceLevel>& levels, double Moments::*which) {
   double least = HUGE_VAL, most = 0.0;
   for (const ChanceLevel& level : levels) {
@@ -107,7 +114,7 @@ Entry figure_6(const Scene& scene) {
       {"mean overlap, 0.02 to 1.28 m", "about constant", range_of(whole, &Moments::mean),
        "see the table: surfaces, not points at random"},
       {"sd at 1.28 and at 0.02 m", "grows as it gets finer",
-       fmt::format("{:.1f} and {:.1f}", coarsest.sd, finest.sd)},
+       fmt::format("{:.1f} and {:.1f}", coarsest.sd, finest.sd), peak_of(whole)},
       {"sd over mean at 1.28 and at 0.02 m", "not said",
        fmt::format("{:.2f} and {:.2f}", coarsest.sd / coarsest.mean, finest.sd / finest.mean)},
       {"a normal distribution at", "0.64 m and coarser", holds_at(whole, limit),
@@ -122,7 +129,9 @@ Entry figure_6(const Scene& scene) {
       "and a wall overlaps all at once or not at all. So the measured deviation is a multiple of "
       "equation 5's, the histograms lean to one side, and the mean peaks between the resolution at "
       "which surfaces have holes and the one at which few voxels are left, where the paper has it "
-      "about constant. Poses at the map's rim, of which half of the scan lies outside, make the "
+      "about constant. The deviation goes with the mean, so it grows only down to that peak; as a "
+      "share of the mean it grows on. Poses at the map's rim, of which half of the scan lies "
+      "outside, make the "
       "tail "
       "to the left at coarse resolutions.";
   return entry;
