@@ -29,7 +29,7 @@ constexpr std::int64_t kLinesAhead = 40;
 constexpr std::int64_t kAhead_us = 2'500'000;
 
 // It waits so long for services, then it drives on: that is a fault, and is counted.
-constexpr std::chrono::seconds kPatience(3);
+constexpr std::chrono::seconds kPatience(10);
 
 // It stands so long, but for the last 3 s without ODOMETRY (us).
 constexpr std::int64_t kSettle_us = 42'000'000;
