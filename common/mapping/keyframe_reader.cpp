@@ -49,7 +49,7 @@ void KeyframeReader::read_graph() {
 
 void KeyframeReader::place_by_graph(Keyframe& keyframe) {
   const auto found = graph_.next(keyframe.cloud.utime_us);
-  if (found) stand_at(found->T_map_keyframe, keyframe.T_map_base);
+  if (found) stand_at(*found, keyframe.T_map_base);
 }
 
 void KeyframeReader::adopt(const FileHeader& header) {

@@ -186,7 +186,7 @@ std::optional<Cloud> MapperService::take_waiting_cloud(std::int64_t utime_us) {
 void MapperService::add(Cloud cloud, const Pose3& pose, const std::optional<Pose2>& T_odom_base) {
   keyframes_.add(builder_.add({pose, std::move(cloud)}));
   const StampedPose3& newest = builder_.poses().back();
-  loops_.add(newest.utime_us, to_pose2(newest.pose), T_odom_base);
+  loops_.add(newest, T_odom_base);
   health_.count("keyframes");
   send_keyframes(keyframes_.size() - 1, 1);
 }
@@ -197,10 +197,13 @@ void MapperService::recall_graph() {
   if (folder.empty()) return;
   const auto found = mapping::find_graph(folder, keyframes_.map_id());
   mapping::GraphPoses known(found.graph ? found.graph->keyframes : mapping::MapKeyframes{});
-  for (const StampedPose3& keyframe : builder_.poses())
-    loops_.restore(
-        known.next(keyframe.utime_us)
-            .value_or(mapping::StoredGraph::Keyframe{keyframe.utime_us, to_pose2(keyframe.pose)}));
+  for (const StampedPose3& pose : builder_.poses()) {
+    auto keyframe =
+        known.next(pose.utime_us)
+            .value_or(mapping::StoredGraph::Keyframe{pose.utime_us, to_pose2(pose.pose)});
+    keyframe.tilt = tilt_of(pose.pose);
+    loops_.restore(keyframe);
+  }
 }
 
 // On the disk first: a mapper that is started again goes on with what listeners have.

@@ -12,6 +12,7 @@
 #include "voxlist/io/files/atomic_file.h"
 #include "voxlist/io/files/file.h"
 #include "voxlist/mapping/graph/pose_graph.h"
+#include "voxlist/mapping/graph/spatial_g2o.h"
 #include "voxlist/mapping/text/checked_text.h"
 #include "voxlist/mapping/text/words.h"
 
@@ -103,10 +104,15 @@ bool holds_together(const StoredGraph& graph) {
 }  // namespace
 
 std::string to_g2o(const StoredGraph& graph) {
-  std::string text(kTitle);
+  const bool in_space = is_in_space(graph);
+  std::string text(in_space ? kSpatialTitle : kTitle);
   const Out out(text);
   fmt::format_to(out, "\n# map {} moves {}\n", graph.map_id, graph.moves);
-  fmt::format_to(out, "# chi2 {}\n", chi2_of(graph));
+  fmt::format_to(out, "# chi2 {}\n", in_space ? chi2_in_space(graph) : chi2_of(graph));
+  if (in_space) {
+    write_in_space(graph, text);
+    return with_checksum(std::move(text));
+  }
   for (std::size_t i = 0; i < graph.keyframes.size(); ++i) write(graph.keyframes[i], i, out);
   if (!graph.keyframes.empty()) text += "FIX 0\n";
   for (const PoseEdge& edge : graph.edges) write(edge, out);
@@ -118,12 +124,14 @@ std::optional<StoredGraph> parse_g2o(std::string_view text) {
   if (!body) return std::nullopt;
   Words words(*body);
   StoredGraph graph;
-  const bool is_first_format = words.is(kFirstTitle);
-  if ((!is_first_format && !words.is(kTitle)) || !words.is("# map")) return std::nullopt;
+  const bool in_space = words.is(kSpatialTitle), is_first_format = words.is(kFirstTitle);
+  if (!in_space && !is_first_format && !words.is(kTitle)) return std::nullopt;
+  if (!words.is("# map")) return std::nullopt;
   graph.map_id = words.number<std::int64_t>();
   words.is("moves");
   graph.moves = words.number<std::int64_t>();
   if (words.is("# chi2")) words.number<double>();
+  if (in_space) read_in_space(words, graph);
   while (words.good() && words.is("VERTEX_SE2")) graph.keyframes.push_back(read_keyframe(words));
   words.is("FIX 0");
   while (words.good() && words.is("EDGE_SE2"))
@@ -158,9 +166,10 @@ FoundGraph find_graph(const std::filesystem::path& folder, std::optional<std::in
   return found;
 }
 
-void stand_at(const Pose2& T_map_keyframe, Pose3& T_map_base) {
-  if (T_map_keyframe != to_pose2(T_map_base))
-    T_map_base = to_pose3(T_map_keyframe, tilt_of(T_map_base));
+void stand_at(const StoredGraph::Keyframe& keyframe, Pose3& T_map_base) {
+  const Tilt tilt = tilt_of(T_map_base);
+  if (keyframe.T_map_keyframe != to_pose2(T_map_base) || keyframe.tilt.value_or(tilt) != tilt)
+    T_map_base = to_pose3(keyframe.T_map_keyframe, keyframe.tilt.value_or(tilt));
 }
 
 std::optional<StoredGraph::Keyframe> GraphPoses::next(std::int64_t utime_us) {

@@ -24,6 +24,8 @@ struct StoredGraph {
     std::optional<Pose2> T_odom_keyframe = std::nullopt;
     /// It is the first of a session: the robot may have been carried there.
     bool begins_session = false;
+    /// Its height, roll and pitch, where the graph tells them.
+    std::optional<Tilt> tilt = std::nullopt;
   };
 
   std::int64_t map_id = 0;
@@ -35,9 +37,10 @@ struct StoredGraph {
   std::vector<PoseEdge> edges;
 };
 
-/// The graph as a g2o file (VERTEX_SE2, EDGE_SE2: the information is of a miss in the axes of the
-/// pose that the edge goes to). What g2o has no word for is in comments, and so is chi2, the sum
-/// over all edges where the poses stand.
+/// The graph as a g2o file: VERTEX_SE2 and EDGE_SE2; VERTEX_SE3:QUAT and EDGE_SE3:QUAT where all
+/// edges are told in space. The information is of a miss in the axes of the pose that the edge goes
+/// to. What g2o has no word for is in comments, and so is chi2, the sum over all edges where the
+/// poses stand.
 std::string to_g2o(const StoredGraph& graph);
 
 /// Nothing when it is torn, or no graph of Voxlist.
@@ -62,7 +65,7 @@ struct FoundGraph {
 FoundGraph find_graph(const std::filesystem::path& folder, std::optional<std::int64_t> map_id);
 
 /// Puts a keyframe where a graph has it. One that was not moved stays as it is in every bit.
-void stand_at(const Pose2& T_map_keyframe, Pose3& T_map_base);
+void stand_at(const StoredGraph::Keyframe& keyframe, Pose3& T_map_base);
 
 /// Tells where keyframes stand, which come in the order of their file. Some of them may have been
 /// lost, and some may be newer than the graph.

@@ -26,8 +26,17 @@ void LocalMap::add(const Cloud& cloud, const Pose2& T_local_base) {
 
 matching::ReachMatch LocalMap::match(const matching::PreparedScan& scan,
                                      const UncertainPose& predicted) {
+  return matching::match_in_reach(matcher(), scan, predicted, kInReach);
+}
+
+matching::SpatialRefinement LocalMap::refined_in_space(const matching::MatchPoints& points,
+                                                       const Pose3& start) {
+  return matcher().refined_in_space(points, start);
+}
+
+matching::Matcher& LocalMap::matcher() {
   if (!matcher_) matcher_ = matching::make_matcher(builder_.map(), config_);
-  return matching::match_in_reach(*matcher_, scan, predicted, kInReach);
+  return *matcher_;
 }
 
 }  // namespace voxlist::mapping

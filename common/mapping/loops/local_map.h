@@ -23,9 +23,15 @@ class LocalMap {
   /// Where a scan was taken near a prediction, T_local_base.
   matching::ReachMatch match(const matching::PreparedScan& scan, const UncertainPose& predicted);
 
+  /// Where a scan's points lie on the surfaces near `start`, T_local_base, in all six coordinates.
+  matching::SpatialRefinement refined_in_space(const matching::MatchPoints& points,
+                                               const Pose3& start);
+
  private:
   matching::MatcherConfig config_;
   MapBuilder builder_;
+  matching::Matcher& matcher();
+
   std::unique_ptr<matching::Matcher> matcher_;
 };
 

@@ -1,6 +1,17 @@
 #include "voxlist/mapping/loops/look_memory.h"
 
 namespace voxlist::mapping {
+namespace {
+
+// So many looks in space at the same two keyframes are remembered: of the drive, of a loop from
+// either end, and one more.
+constexpr std::size_t kSpatialLooks = 4;
+
+std::pair<std::size_t, std::size_t> ends_of(const SpatialLook& look) {
+  return {look.others.front().keyframe, look.keyframe};
+}
+
+}  // namespace
 
 bool LoopLook::operator==(const LoopLook& other) const {
   return keyframe == other.keyframe && reach_m == other.reach_m && from == other.from &&
@@ -33,10 +44,27 @@ void LookMemory::keep(TakenLook look) {
   loops_.insert_or_assign(keyframe, std::move(look));
 }
 
+std::optional<TakenSpatialLook> LookMemory::in_space(const SpatialLook& look) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = in_space_.find(ends_of(look));
+  if (found == in_space_.end()) return std::nullopt;
+  for (const TakenSpatialLook& taken : found->second)
+    if (taken.look == look) return taken;
+  return std::nullopt;
+}
+
+void LookMemory::keep(TakenSpatialLook look) {
+  const std::lock_guard lock(mutex_);
+  std::vector<TakenSpatialLook>& taken = in_space_[ends_of(look.look)];
+  if (taken.size() == kSpatialLooks) taken.erase(taken.begin());
+  taken.push_back(std::move(look));
+}
+
 void LookMemory::clear() {
   const std::lock_guard lock(mutex_);
   neighbours_.clear();
   loops_.clear();
+  in_space_.clear();
 }
 
 }  // namespace voxlist::mapping

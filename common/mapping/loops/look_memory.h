@@ -8,6 +8,7 @@
 
 #include "voxlist/mapping/graph/loop_choice.h"
 #include "voxlist/mapping/loops/neighbour_look.h"
+#include "voxlist/mapping/loops/spatial_look.h"
 
 namespace voxlist::mapping {
 
@@ -30,6 +31,12 @@ struct TakenLook {
   std::vector<Loop> places;
 };
 
+/// A look in space, and what it found.
+struct TakenSpatialLook {
+  SpatialLook look;
+  std::optional<UncertainPose3> found;
+};
+
 /// Looks that were taken, whether they found anything or not: while keyframes stand where they
 /// stood, none is taken again. Answers are the same without it. Keyframes keep their numbers.
 /// Several threads may use it at once.
@@ -44,6 +51,10 @@ class LookMemory {
   std::optional<TakenLook> loop_look(std::size_t keyframe) const;
   void keep(TakenLook look);
 
+  /// The look in space that goes by the same; nothing where none was taken.
+  std::optional<TakenSpatialLook> in_space(const SpatialLook& look) const;
+  void keep(TakenSpatialLook look);
+
   /// Keyframes have other numbers now.
   void clear();
 
@@ -51,6 +62,8 @@ class LookMemory {
   mutable std::mutex mutex_;
   std::map<std::pair<std::size_t, std::size_t>, NeighbourLook> neighbours_;
   std::map<std::size_t, TakenLook> loops_;
+  // Two keyframes may be joined by several edges, each looked at from where it expects them.
+  std::map<std::pair<std::size_t, std::size_t>, std::vector<TakenSpatialLook>> in_space_;
 };
 
 }  // namespace voxlist::mapping

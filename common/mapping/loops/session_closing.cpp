@@ -1,6 +1,7 @@
 #include "voxlist/mapping/loops/session_closing.h"
 
 #include <algorithm>
+#include <cmath>
 #include <mutex>
 #include <numeric>
 #include <span>
@@ -8,6 +9,7 @@
 #include "voxlist/geometry/tilt.h"
 #include "voxlist/mapping/graph/pose_graph.h"
 #include "voxlist/mapping/loops/neighbours.h"
+#include "voxlist/mapping/loops/spatial_closing.h"
 
 namespace voxlist::mapping {
 namespace {
@@ -57,17 +59,28 @@ Drive drive_of(const MapKeyframes& keyframes, const ReadCloud& read, const Known
   return drive;
 }
 
-void move(const MapKeyframes& keyframes, std::vector<Pose2> poses, SessionClosing& closing) {
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    const Pose2& before = keyframes[i].T_map_keyframe;
-    closing.moved_m = std::max(closing.moved_m, distance_m(before, poses[i]));
-    closing.turned_rad = std::max(closing.turned_rad, turn_rad(before, poses[i]));
+// How far keyframes are moved, and turned, along and about the axis where that is most.
+void tell_motion(const MapKeyframes& before, SessionClosing& closing) {
+  const MapKeyframes after = moved(before, closing);
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const Pose2 &was = before[i].T_map_keyframe, &is = after[i].T_map_keyframe;
+    const Tilt from = before[i].tilt.value_or(Tilt{}), to = after[i].tilt.value_or(Tilt{});
+    closing.moved_m = std::max({closing.moved_m, distance_m(was, is), std::abs(to.z_m - from.z_m)});
+    closing.turned_rad =
+        std::max({closing.turned_rad, turn_rad(was, is), std::abs(to.roll_rad - from.roll_rad),
+                  std::abs(to.pitch_rad - from.pitch_rad)});
   }
-  closing.poses = std::move(poses);
-  closing.moves = true;
 }
 
 }  // namespace
+
+MapKeyframes moved(MapKeyframes keyframes, const SessionClosing& closing) {
+  for (std::size_t i = 0; i < keyframes.size(); ++i) {
+    keyframes[i].T_map_keyframe = closing.poses[i];
+    if (!closing.tilts.empty()) keyframes[i].tilt = closing.tilts[i];
+  }
+  return keyframes;
+}
 
 Order order_of_drive(const MapKeyframes& keyframes) {
   std::vector<int> session(keyframes.size(), 0);
@@ -89,12 +102,18 @@ SessionClosing close_sessions(const MapKeyframes& keyframes, const ReadCloud& re
   const MapClosing closed =
       close_map(drive.poses, drive.odometry, drive.read, config, drive.known, memory);
   SessionClosing closing;
-  closing.loops = closed.loops;
   closing.refused = closed.refused;
   closing.edges = in_file(closed.edges, drive.order);
+  closing.moves = closed.moves;
   for (const auto& keyframe : keyframes) closing.poses.push_back(keyframe.T_map_keyframe);
   if (closed.moves)
-    move(keyframes, in_file(closed.poses, drive.order, keyframes.front().T_map_keyframe), closing);
+    closing.poses = in_file(closed.poses, drive.order, keyframes.front().T_map_keyframe);
+  if (is_in_space(keyframes))
+    tell_in_space(keyframes, read, config, closing.poses, closing.edges, memory);
+  const bool has_loops = closing.edges.size() >= keyframes.size();
+  if (has_loops && is_in_space(keyframes)) close_in_space(keyframes, closing);
+  if (closing.moves) closing.loops = closing.edges.size() + 1 - keyframes.size();
+  if (closing.moves) tell_motion(keyframes, closing);
   return closing;
 }
 
@@ -106,8 +125,15 @@ std::vector<PoseEdge> drive_edges(const MapKeyframes& keyframes, const ReadCloud
     return read(keyframe);
   };
   const Drive drive = drive_of(keyframes, one_by_one, known);
-  return in_file(join_neighbours(drive.poses, drive.odometry, drive.read, config, drive.known),
-                 drive.order);
+  std::vector<PoseEdge> edges = in_file(
+      join_neighbours(drive.poses, drive.odometry, drive.read, config, drive.known), drive.order);
+  if (is_in_space(keyframes)) {
+    std::vector<Pose2> poses(keyframes.size());
+    std::transform(keyframes.begin(), keyframes.end(), poses.begin(),
+                   [](const auto& keyframe) { return keyframe.T_map_keyframe; });
+    tell_in_space(keyframes, read, config, poses, edges);
+  }
+  return edges;
 }
 
 drawing::ClosedLoops drawn(const MapKeyframes& before, const SessionClosing& closing) {

@@ -15,6 +15,8 @@ using MapKeyframes = std::vector<StoredGraph::Keyframe>;
 struct SessionClosing {
   /// T_map_keyframe of each; as they were where nothing is to be closed.
   std::vector<Pose2> poses;
+  /// Height, roll and pitch of each, where those are moved, too; else empty.
+  std::vector<Tilt> tilts;
   /// What holds them, where it was looked for: by the drive, then by loops.
   std::vector<PoseEdge> edges;
   std::size_t loops = 0, refused = 0;
@@ -23,12 +25,17 @@ struct SessionClosing {
   bool moves = false;
 };
 
+/// Keyframes that stand where a closing has them.
+MapKeyframes moved(MapKeyframes keyframes, const SessionClosing& closing);
+
 /// The order in which they came: session by session, each in the order of time.
 std::vector<std::size_t> order_of_drive(const MapKeyframes& keyframes);
 
-/// Closes the loops of a map, all sessions taken as one drive. The first keyframe stays. `read`
+/// Closes the loops of a map, all sessions taken as one drive: in the plane, and then in height,
+/// roll and pitch (spatial_closing.h) where robots lean. The first keyframe stays. `read`
 /// and `known` (looks that were taken before, as close_map() has them) take keyframes' places in
-/// `keyframes`; those of the memory are in the order of the drive.
+/// `keyframes`; those of the memory are in the order of the drive, or in space those
+/// in `keyframes`.
 SessionClosing close_sessions(const MapKeyframes& keyframes, const ReadCloud& read,
                               const matching::MatcherConfig& config, const KnownLook& known = {},
                               LookMemory* memory = nullptr);

@@ -31,13 +31,12 @@ void Piece::add(Cloud cloud, const Pose3& T_piece_base) {
   add({T_piece_base, std::move(cloud)}, std::nullopt);
 }
 
-void Piece::move_keyframes(const std::vector<Pose2>& T_piece_base) {
+void Piece::move_keyframes(const std::vector<Pose3>& T_piece_base) {
   const std::vector<StampedPose3> before = builder_.poses();
   std::vector<std::optional<Pose3>> poses;
   for (std::size_t i = 0; i < keyframes_.size(); ++i) {
-    Pose3& pose = keyframes_[i].T_map_base;
-    pose = to_pose3(T_piece_base[i], tilt_of(pose));
-    poses.emplace_back(pose);
+    keyframes_[i].T_map_base = T_piece_base[i];
+    poses.emplace_back(T_piece_base[i]);
   }
   builder_.move(poses, [this](std::size_t i) { return spool_->read(keyframes_[i]).cloud; });
   const auto carry = [&](Begin begin, Begin end) {

@@ -60,7 +60,7 @@ class Piece {
 
   /// Makes the map that of its keyframes at these poses, in their order; other scans keep their
   /// place beside the keyframe of their session that was taken next before or after them.
-  void move_keyframes(const std::vector<Pose2>& T_piece_base);
+  void move_keyframes(const std::vector<Pose3>& T_piece_base);
 
   /// Takes all that another piece has; `T_this_other` is from that piece to this one.
   void join(const Piece& other, const Pose2& T_this_other);

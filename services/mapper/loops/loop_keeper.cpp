@@ -37,7 +37,9 @@ struct LoopKeeper::Work {
   mapping::SessionClosing closing;
   drawing::ClosedLoops drawn;
   std::optional<mapping::MapBuilder> builder;
+  // How the newest of those was moved, and by how much (m) it was lifted.
   Pose2 T_new_old;
+  double rise_m = 0.0;
   // No keyframe comes any more: what moves at all is moved, as at the desk.
   bool is_last = false;
   std::int64_t took_us = 0;
@@ -50,7 +52,7 @@ struct LoopKeeper::Work {
     if (stop) throw Stopped();
     auto found = stored->read(keyframe);
     if (!found) throw std::runtime_error("the disk lost a keyframe");
-    mapping::stand_at(keyframes[keyframe].T_map_keyframe, found->T_map_base);
+    mapping::stand_at(keyframes[keyframe], found->T_map_base);
     return std::move(*found);
   }
 
@@ -66,10 +68,12 @@ LoopKeeper::LoopKeeper(bus::Health& health, LoopUse use, const mapping::MapBuild
       config_(builder),
       watch_(matching::MatcherConfig().scan.max_range_m) {}
 
-void LoopKeeper::add(std::int64_t utime_us, const Pose2& T_map_keyframe,
+void LoopKeeper::add(const StampedPose3& T_map_keyframe,
                      const std::optional<Pose2>& T_odom_keyframe) {
+  const std::int64_t utime_us = T_map_keyframe.utime_us;
   const bool goes_back = !keyframes_.empty() && utime_us < keyframes_.back().utime_us;
-  restore({utime_us, T_map_keyframe, T_odom_keyframe, goes_back});
+  restore({utime_us, to_pose2(T_map_keyframe.pose), T_odom_keyframe, goes_back,
+           tilt_of(T_map_keyframe.pose)});
 }
 
 void LoopKeeper::restore(const mapping::StoredGraph::Keyframe& keyframe) {
@@ -155,8 +159,9 @@ bool LoopKeeper::prepare() {
   if (!work_->moves_enough()) return false;
   work_->drawn = mapping::drawn(work_->keyframes, closing);
   work_->T_new_old = closing.poses.back() * work_->keyframes.back().T_map_keyframe.inverse();
-  for (std::size_t i = 0; i < closing.poses.size(); ++i)
-    work_->keyframes[i].T_map_keyframe = closing.poses[i];
+  if (!closing.tilts.empty())
+    work_->rise_m = closing.tilts.back().z_m - work_->keyframes.back().tilt.value_or(Tilt{}).z_m;
+  work_->keyframes = mapping::moved(std::move(work_->keyframes), closing);
   work_->builder.emplace(config_);
   return true;
 }
@@ -171,8 +176,9 @@ bool LoopKeeper::reopen(const Open& open) {
 void LoopKeeper::move_newer() {
   for (std::size_t i = work_->keyframes.size(); i < keyframes_.size(); ++i) {
     work_->keyframes.push_back(keyframes_[i]);
-    Pose2& pose = work_->keyframes.back().T_map_keyframe;
-    pose = work_->T_new_old * pose;
+    mapping::StoredGraph::Keyframe& newer = work_->keyframes.back();
+    newer.T_map_keyframe = work_->T_new_old * newer.T_map_keyframe;
+    if (newer.tilt) newer.tilt->z_m += work_->rise_m;
   }
 }
 

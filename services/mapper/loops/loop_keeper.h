@@ -54,8 +54,7 @@ class LoopKeeper {
   LoopKeeper(bus::Health& health, LoopUse use, const mapping::MapBuilderConfig& builder);
 
   /// The map's next keyframe. `T_odom_keyframe`: odometry's pose at its time, if there is any.
-  void add(std::int64_t utime_us, const Pose2& T_map_keyframe,
-           const std::optional<Pose2>& T_odom_keyframe);
+  void add(const StampedPose3& T_map_keyframe, const std::optional<Pose2>& T_odom_keyframe);
 
   /// What a graph of before knows of the next keyframe.
   void restore(const mapping::StoredGraph::Keyframe& keyframe);

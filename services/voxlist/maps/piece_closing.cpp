@@ -8,9 +8,17 @@ mapping::MapKeyframes keyframes_of(const mapping::Piece& piece) {
   for (std::size_t i = 0; i < piece.keyframes().size(); ++i) {
     const mapping::SpooledKeyframe& keyframe = piece.keyframes()[i];
     keyframes.push_back({piece.builder().poses()[i].utime_us, to_pose2(keyframe.T_map_base),
-                         keyframe.T_odom_base, i > 0 && i == piece.first_session()});
+                         keyframe.T_odom_base, i > 0 && i == piece.first_session(),
+                         tilt_of(keyframe.T_map_base)});
   }
   return keyframes;
+}
+
+std::vector<Pose3> poses_of(const mapping::MapKeyframes& keyframes) {
+  std::vector<Pose3> poses;
+  for (const auto& keyframe : keyframes)
+    poses.push_back(to_pose3(keyframe.T_map_keyframe, *keyframe.tilt));
+  return poses;
 }
 
 }  // namespace
@@ -30,7 +38,7 @@ PieceClosing close_piece(mapping::Piece& piece, mapping::KeyframeSpool& spool,
   const auto read = [&](std::size_t i) { return level_cloud(spool, keyframes[i]); };
   mapping::SessionClosing closed = mapping::close_sessions(before, read, config, known);
   if (closed.edges.empty()) closed.edges = mapping::drive_edges(before, read, config, known);
-  if (closed.moves) piece.move_keyframes(closed.poses);
+  if (closed.moves) piece.move_keyframes(poses_of(mapping::moved(before, closed)));
   return {closed.loops,
           closed.refused,
           closed.moved_m,

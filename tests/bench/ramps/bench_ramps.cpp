@@ -8,6 +8,7 @@
 
 #include "services/voxlist/maps/map_run.h"
 #include "tests/bench/ramps/ramp_drive.h"
+#include "tests/bench/ramps/two_floors.h"
 #include "tests/bench/report.h"
 #include "tests/temporary_folder.h"
 #include "voxlist/geometry/angle.h"
@@ -86,7 +87,7 @@ class Run {
         floors_(floors),
         kind_(kind),
         seed_(seed),
-        drive_(ramp_drive(floors, kStep_m, seed)),
+        drive_(ramp_drive(floors.drive(kStep_m), seed)),
         run_(config(), {}, spool_) {}
 
   std::vector<Figure> measure(const std::string& scene) {

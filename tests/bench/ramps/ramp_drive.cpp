@@ -1,15 +1,17 @@
 #include "tests/bench/ramps/ramp_drive.h"
 
+#include <utility>
+
 #include "voxlist/geometry/angle.h"
 #include "voxlist/simulation/random.h"
 
 namespace voxlist::bench {
 
-RampDrive ramp_drive(const TwoFloors& floors, double step_m, std::uint64_t seed) {
+RampDrive ramp_drive(std::vector<Pose3> truth, std::uint64_t seed) {
   simulation::Random random(seed);
   const double scale = random.uniform(0.98, 1.02), drift_radpm = random.uniform(-0.01, 0.01);
   RampDrive drive;
-  drive.truth = floors.drive(step_m);
+  drive.truth = std::move(truth);
   Pose2 T_odom_base;
   for (std::size_t i = 0; i < drive.truth.size(); ++i) {
     const Pose3& pose = drive.truth[i];

@@ -3,12 +3,12 @@
 #include <cstdint>
 #include <vector>
 
-#include "tests/bench/ramps/two_floors.h"
+#include "voxlist/geometry/pose.h"
 #include "voxlist/geometry/tilt.h"
 
 namespace voxlist::bench {
 
-/// A drive over both floors, and what the robot measures on it.
+/// A drive, and what the robot measures on it.
 struct RampDrive {
   std::vector<Pose3> truth;
   /// Wheels measure the way along the slope, up to 2 % off, and drift by up to 0.01 rad/m.
@@ -17,6 +17,6 @@ struct RampDrive {
   std::vector<Tilt> odometry_tilt;
 };
 
-RampDrive ramp_drive(const TwoFloors& floors, double step_m, std::uint64_t seed);
+RampDrive ramp_drive(std::vector<Pose3> truth, std::uint64_t seed);
 
 }  // namespace voxlist::bench

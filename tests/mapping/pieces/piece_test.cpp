@@ -33,7 +33,7 @@ TEST(Piece, MakesItsMapAnewWhereKeyframesAreMoved) {
   ASSERT_FALSE(piece.take(wall(1'200'000, 3.0F), at(4.1), std::nullopt));
 
   const Pose2 moved{3.0, 1.0, std::numbers::pi / 2};
-  piece.move_keyframes({{}, moved});
+  piece.move_keyframes({Pose3::Identity(), to_pose3(moved)});
 
   MapBuilder fresh;
   fresh.add({Pose3::Identity(), wall(0, 1.0F)});
@@ -58,7 +58,7 @@ TEST(Piece, MovesAScanWithAKeyframeOfItsOwnSession) {
   EXPECT_EQ(piece.first_session(), 1u);
 
   const Pose2 moved{4.5, 0.0, 0.0};
-  piece.move_keyframes({{}, moved});
+  piece.move_keyframes({Pose3::Identity(), to_pose3(moved)});
 
   ASSERT_EQ(piece.trajectory().size(), 2u);
   EXPECT_LT(distance_m(to_pose2(piece.trajectory()[0].pose), {}), 1e-9);

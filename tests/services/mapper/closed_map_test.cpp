@@ -18,10 +18,11 @@ mapping::MapBuilder closed_at_the_desk(const BentDrive& drive) {
     keyframes.push_back({drive.keyframe(i).cloud.utime_us, drive.bent[i]});
   const auto closing = mapping::close_sessions(
       keyframes, [&](std::size_t i) { return drive.keyframe(i).cloud; }, {});
+  const mapping::MapKeyframes closed = mapping::moved(keyframes, closing);
   mapping::MapBuilder builder;
   for (std::size_t i = 0; i < drive.size(); ++i) {
     mapping::Keyframe keyframe = drive.keyframe(i);
-    mapping::stand_at(closing.poses[i], keyframe.T_map_base);
+    mapping::stand_at(closed[i], keyframe.T_map_base);
     builder.add(std::move(keyframe));
   }
   return builder;

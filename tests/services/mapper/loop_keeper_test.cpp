@@ -19,7 +19,7 @@ class LoopKeeperTest : public testing::Test {
     mapping::Keyframe keyframe = drive_.keyframe(next_++);
     keyframe.T_map_base = to_pose3(T_map_keyframe);
     store_.append(keyframe);
-    keeper_.add(keyframe.cloud.utime_us, T_map_keyframe, std::nullopt);
+    keeper_.add({keyframe.cloud.utime_us, to_pose3(T_map_keyframe)}, std::nullopt);
   }
 
   std::optional<ClosedMap> tick() {

@@ -22,21 +22,27 @@ ExtendedMap::ExtendedMap(const std::filesystem::path& folder,
 
 void ExtendedMap::take(mapping::Keyframe keyframe) {
   poses_.push_back({keyframe.cloud.utime_us, keyframe.T_map_base});
-  keyframes_.push_back({keyframe.cloud.utime_us, to_pose2(keyframe.T_map_base)});
+  keyframes_.push_back({.utime_us = keyframe.cloud.utime_us,
+                        .T_map_keyframe = to_pose2(keyframe.T_map_base),
+                        .tilt = tilt_of(keyframe.T_map_base)});
   builder_.add(std::move(keyframe));
 }
 
 // What the graph of the sessions so far knows beside the poses.
 void ExtendedMap::recall(mapping::GraphPoses known) {
   for (auto& keyframe : keyframes_)
-    if (const auto found = known.next(keyframe.utime_us)) keyframe = *found;
+    if (const auto found = known.next(keyframe.utime_us)) {
+      const auto tilt = keyframe.tilt;
+      keyframe = *found;
+      keyframe.tilt = tilt;
+    }
 }
 
 void ExtendedMap::append(const mapping::Keyframe& keyframe,
                          const std::optional<Pose2>& T_odom_base) {
   store_.append(keyframe);
   keyframes_.push_back({keyframe.cloud.utime_us, to_pose2(keyframe.T_map_base), T_odom_base,
-                        keyframes_.size() == were_there_});
+                        keyframes_.size() == were_there_, tilt_of(keyframe.T_map_base)});
   poses_.push_back({keyframe.cloud.utime_us, keyframe.T_map_base});
 }
 
@@ -51,10 +57,9 @@ mapping::SessionClosing ExtendedMap::close(const matching::MatcherConfig& config
   const auto level = [&](std::size_t i) { return mapping::level_cloud(read(i)); };
   mapping::SessionClosing closing = mapping::close_sessions(keyframes_, level, config);
   if (closing.edges.empty()) closing.edges = mapping::drive_edges(keyframes_, level, config);
-  for (std::size_t i = 0; closing.moves && i < poses_.size(); ++i) {
-    keyframes_[i].T_map_keyframe = closing.poses[i];
-    mapping::stand_at(closing.poses[i], poses_[i].pose);
-  }
+  if (closing.moves) keyframes_ = mapping::moved(std::move(keyframes_), closing);
+  for (std::size_t i = 0; closing.moves && i < poses_.size(); ++i)
+    mapping::stand_at(keyframes_[i], poses_[i].pose);
   store_.write_graph(
       {store_.map_id(), store_.moves() + int{closing.moves}, keyframes_, closing.edges});
   return closing;
