@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "voxlist/mapping/graph/carried_scans.h"
+#include "voxlist/mapping/pieces/carried_scans.h"
 
 namespace voxlist::services {
 

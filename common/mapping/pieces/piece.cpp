@@ -4,7 +4,7 @@
 #include <span>
 #include <utility>
 
-#include "voxlist/mapping/graph/carried_scans.h"
+#include "voxlist/mapping/pieces/carried_scans.h"
 
 namespace voxlist::mapping {
 

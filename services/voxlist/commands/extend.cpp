@@ -17,7 +17,7 @@
 #include "services/voxlist/maps/stored_map.h"
 #include "services/voxlist/output/progress.h"
 #include "services/voxlist/output/stop.h"
-#include "voxlist/mapping/graph/carried_scans.h"
+#include "voxlist/mapping/pieces/carried_scans.h"
 
 namespace voxlist::desk {
 namespace {

@@ -1,4 +1,4 @@
-#include "voxlist/mapping/graph/carried_scans.h"
+#include "voxlist/mapping/pieces/carried_scans.h"
 
 #include <algorithm>
 #include <cstdlib>
