@@ -204,6 +204,7 @@ void MapperService::recall_graph() {
     keyframe.tilt = tilt_of(pose.pose);
     loops_.restore(keyframe);
   }
+  if (is_extending_) loops_.keep_looks(folder, map_id_);
 }
 
 // On the disk first: a mapper that is started again goes on with what listeners have.
@@ -232,6 +233,7 @@ void MapperService::give_up(std::int64_t map_id) {
   map_id_ = new_id;
   builder_.clear();
   loops_.clear();
+  if (!keyframes_.folder().empty()) loops_.keep_looks(keyframes_.folder(), map_id_);
   moves_ = 0;
   closed_loops_ = {};
   path_ = {};

@@ -22,32 +22,32 @@ bool LoopLook::operator==(const LoopLook& other) const {
 std::optional<NeighbourLook> LookMemory::neighbours(std::size_t from, std::size_t to,
                                                     const NeighbourLook& expected) const {
   const std::lock_guard lock(mutex_);
-  const auto found = neighbours_.find({from, to});
-  if (found == neighbours_.end() || !are_alike(found->second, expected)) return std::nullopt;
+  const auto found = looks_.neighbours.find({from, to});
+  if (found == looks_.neighbours.end() || !are_alike(found->second, expected)) return std::nullopt;
   return found->second;
 }
 
 void LookMemory::keep(std::size_t from, std::size_t to, const NeighbourLook& look) {
   const std::lock_guard lock(mutex_);
-  neighbours_.insert_or_assign({from, to}, look);
+  looks_.neighbours.insert_or_assign({from, to}, look);
 }
 
 std::optional<TakenLook> LookMemory::loop_look(std::size_t keyframe) const {
   const std::lock_guard lock(mutex_);
-  const auto found = loops_.find(keyframe);
-  return found == loops_.end() ? std::nullopt : std::optional(found->second);
+  const auto found = looks_.loops.find(keyframe);
+  return found == looks_.loops.end() ? std::nullopt : std::optional(found->second);
 }
 
 void LookMemory::keep(TakenLook look) {
   const std::lock_guard lock(mutex_);
   const std::size_t keyframe = look.look.keyframe;
-  loops_.insert_or_assign(keyframe, std::move(look));
+  looks_.loops.insert_or_assign(keyframe, std::move(look));
 }
 
 std::optional<TakenSpatialLook> LookMemory::in_space(const SpatialLook& look) const {
   const std::lock_guard lock(mutex_);
-  const auto found = in_space_.find(ends_of(look));
-  if (found == in_space_.end()) return std::nullopt;
+  const auto found = looks_.in_space.find(ends_of(look));
+  if (found == looks_.in_space.end()) return std::nullopt;
   for (const TakenSpatialLook& taken : found->second)
     if (taken.look == look) return taken;
   return std::nullopt;
@@ -55,16 +55,21 @@ std::optional<TakenSpatialLook> LookMemory::in_space(const SpatialLook& look) co
 
 void LookMemory::keep(TakenSpatialLook look) {
   const std::lock_guard lock(mutex_);
-  std::vector<TakenSpatialLook>& taken = in_space_[ends_of(look.look)];
+  std::vector<TakenSpatialLook>& taken = looks_.in_space[ends_of(look.look)];
   if (taken.size() == kSpatialLooks) taken.erase(taken.begin());
   taken.push_back(std::move(look));
 }
 
-void LookMemory::clear() {
+LookMemory::Looks LookMemory::all() const {
   const std::lock_guard lock(mutex_);
-  neighbours_.clear();
-  loops_.clear();
-  in_space_.clear();
+  return looks_;
 }
+
+void LookMemory::take(Looks looks) {
+  const std::lock_guard lock(mutex_);
+  looks_ = std::move(looks);
+}
+
+void LookMemory::clear() { take({}); }
 
 }  // namespace voxlist::mapping

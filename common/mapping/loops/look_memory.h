@@ -42,6 +42,13 @@ struct TakenSpatialLook {
 /// Several threads may use it at once.
 class LookMemory {
  public:
+  struct Looks {
+    std::map<std::pair<std::size_t, std::size_t>, NeighbourLook> neighbours;
+    std::map<std::size_t, TakenLook> loops;
+    // Two keyframes may be joined by several edges, each looked at from where it expects them.
+    std::map<std::pair<std::size_t, std::size_t>, std::vector<TakenSpatialLook>> in_space;
+  };
+
   /// The look at neighbours that were expected there.
   std::optional<NeighbourLook> neighbours(std::size_t from, std::size_t to,
                                           const NeighbourLook& expected) const;
@@ -55,15 +62,16 @@ class LookMemory {
   std::optional<TakenSpatialLook> in_space(const SpatialLook& look) const;
   void keep(TakenSpatialLook look);
 
+  /// All that it knows, for whoever keeps it elsewhere (stored_looks.h), and that again.
+  Looks all() const;
+  void take(Looks looks);
+
   /// Keyframes have other numbers now.
   void clear();
 
  private:
   mutable std::mutex mutex_;
-  std::map<std::pair<std::size_t, std::size_t>, NeighbourLook> neighbours_;
-  std::map<std::size_t, TakenLook> loops_;
-  // Two keyframes may be joined by several edges, each looked at from where it expects them.
-  std::map<std::pair<std::size_t, std::size_t>, std::vector<TakenSpatialLook>> in_space_;
+  Looks looks_;
 };
 
 }  // namespace voxlist::mapping

@@ -7,6 +7,8 @@
 
 #include "voxlist/bus/health.h"
 #include "voxlist/geometry/angle.h"
+#include "voxlist/io/files/file.h"
+#include "voxlist/mapping/loops/stored_looks.h"
 #include "voxlist/matching/localisation/thread_arena.h"
 
 namespace voxlist::services {
@@ -81,6 +83,16 @@ void LoopKeeper::restore(const mapping::StoredGraph::Keyframe& keyframe) {
   watch_.add(keyframe.T_map_keyframe);
 }
 
+void LoopKeeper::keep_looks(const std::filesystem::path& folder, std::int64_t map_id) {
+  folder_ = folder;
+  map_id_ = map_id;
+  const std::string fault = mapping::read_looks(folder_, map_id_, keyframes_, memory_);
+  if (fault.empty()) return;
+  std::error_code ignored;
+  std::filesystem::remove(folder_ / mapping::kLooksFile, ignored);
+  health_.count("loops/looks_lost");
+}
+
 void LoopKeeper::clear() {
   background_.cancel();
   work_.reset();
@@ -132,7 +144,14 @@ void LoopKeeper::begin(const Open& open) {
     const auto read = [&](std::size_t i) { return mapping::level_cloud(work->read(i, stop)); };
     matching::ThreadArena(1).run(
         [&] { work->closing = mapping::close_sessions(work->keyframes, read, {}, {}, &memory_); });
+    write_looks(work->keyframes);
   });
+}
+
+// In the thread, when a search has ended. A disk that is full costs no more than the next start.
+void LoopKeeper::write_looks(const mapping::MapKeyframes& keyframes) try {
+  if (!folder_.empty()) mapping::write_looks(folder_, map_id_, keyframes, memory_);
+} catch (const io::FileError&) {
 }
 
 // One step has ended. The next one begins, or the work is done, or is given up.

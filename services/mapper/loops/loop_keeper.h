@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -59,6 +60,10 @@ class LoopKeeper {
   /// What a graph of before knows of the next keyframe.
   void restore(const mapping::StoredGraph::Keyframe& keyframe);
 
+  /// Looks for loops are kept in that folder of a map from now on; those that are there, of the
+  /// keyframes that were restored, are not taken again.
+  void keep_looks(const std::filesystem::path& folder, std::int64_t map_id);
+
   /// Forgets all keyframes.
   void clear();
 
@@ -81,6 +86,7 @@ class LoopKeeper {
   bool is_worth_it(std::int64_t now_us) const;
   void begin(const Open& open);
   std::optional<ClosedMap> go_on(const Open& open);
+  void write_looks(const mapping::MapKeyframes& keyframes);
   void tell(const mapping::SessionClosing& closing);
   bool prepare();
   bool reopen(const Open& open);
@@ -96,6 +102,9 @@ class LoopKeeper {
   std::size_t newest_looked_at_ = 0;  // so many keyframes were there when a search began
   // What was looked at is not looked at again, whatever became of it.
   mapping::LookMemory memory_;
+  // Where they are kept, and of which map.
+  std::filesystem::path folder_;
+  std::int64_t map_id_ = 0;
   std::shared_ptr<Work> work_;
   Background background_;
 };
