@@ -8,9 +8,9 @@
 namespace voxlist::viewing {
 namespace {
 
-// Look-ups of one tick: some 10 ms, which only a whole map takes. A hall is ready after half a
-// second.
-constexpr std::size_t kWorkOfATick = 200'000;
+// Look-ups of one tick, in which the bus waits: few milliseconds, which only a whole map and the
+// largest keyframes take. A hall is ready after a second.
+constexpr std::size_t kWorkOfATick = 100'000;
 
 }  // namespace
 

@@ -1,5 +1,10 @@
 #include "voxlist/viewing/blocks/resampled_block.h"
 
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <vector>
+
 namespace voxlist::viewing {
 namespace {
 
@@ -23,25 +28,53 @@ VoxelBox sources_of(const Voxel& block, double edge_m, double map_m) {
   return {block_of(voxel_at(low, map_m)), block_of(voxel_at(high, map_m))};
 }
 
-void mark(const Voxel& voxel, VoxelBlock& bits) {
-  const int bit = (voxel.x & 7) + 8 * (voxel.y & 7);
-  bits[static_cast<std::size_t>(voxel.z & 7)] |= std::uint64_t{1} << bit;
+// Along one axis: where in the block each voxel of a source block goes; -1: into another block.
+using Places = std::array<std::int8_t, kBlockEdge>;
+
+// Those of each source block from `first` to `last`. The axes are alike.
+std::vector<Places> places(std::int32_t first, std::int32_t last, std::int32_t block, double map_m,
+                           double edge_m) {
+  std::vector<Places> all;
+  for (std::int32_t source = first; source <= last; ++source) {
+    Places& each = all.emplace_back();
+    for (std::int32_t i = 0; i < kBlockEdge; ++i) {
+      const std::int32_t at = source * kBlockEdge + i;
+      const std::int32_t place = resampled({at, at, at}, map_m, edge_m).x - block * kBlockEdge;
+      const bool is_inside = place >= 0 && place < kBlockEdge;
+      each[static_cast<std::size_t>(i)] = static_cast<std::int8_t>(is_inside ? place : -1);
+    }
+  }
+  return all;
+}
+
+void add(const VoxelBlock& source, const Places& x, const Places& y, const Places& z,
+         VoxelBlock& bits) {
+  for (std::size_t layer = 0; layer < kBlockEdge; ++layer) {
+    if (z[layer] < 0) continue;
+    std::uint64_t& to = bits[static_cast<std::size_t>(z[layer])];
+    for (std::uint64_t word = source[layer]; word != 0; word &= word - 1) {
+      const auto bit = static_cast<std::size_t>(std::countr_zero(word));
+      const int column = x[bit % 8], row = y[bit / 8];
+      if (column >= 0 && row >= 0) to |= std::uint64_t{1} << (column + 8 * row);
+    }
+  }
 }
 
 }  // namespace
 
 VoxelBlock resampled_block(const VoxelMap& map, double edge_m, const Voxel& block) {
-  const VoxelBox sources = sources_of(block, edge_m, map.resolution_m());
+  const double map_m = map.resolution_m();
+  const auto [low, high] = sources_of(block, edge_m, map_m);
+  const auto xs = places(low.x, high.x, block.x, map_m, edge_m);
+  const auto ys = places(low.y, high.y, block.y, map_m, edge_m);
+  const auto zs = places(low.z, high.z, block.z, map_m, edge_m);
+  const auto at = [](std::int32_t i) { return static_cast<std::size_t>(i); };
   VoxelBlock bits{};
-  const auto take = [&](const Voxel& voxel) {
-    const Voxel there = resampled(voxel, map.resolution_m(), edge_m);
-    if (block_of(there) == block) mark(there, bits);
-  };
-  for (std::int32_t z = sources.lowest.z; z <= sources.highest.z; ++z)
-    for (std::int32_t y = sources.lowest.y; y <= sources.highest.y; ++y)
-      for (std::int32_t x = sources.lowest.x; x <= sources.highest.x; ++x)
+  for (std::int32_t z = low.z; z <= high.z; ++z)
+    for (std::int32_t y = low.y; y <= high.y; ++y)
+      for (std::int32_t x = low.x; x <= high.x; ++x)
         if (const VoxelBlock* source = map.find_block({x, y, z}))
-          VoxelMap::visit_block({x, y, z}, *source, take);
+          add(*source, xs[at(x - low.x)], ys[at(y - low.y)], zs[at(z - low.z)], bits);
   return bits;
 }
 
