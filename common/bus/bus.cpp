@@ -10,7 +10,6 @@
 
 #include "voxlist/bus/channel_pattern.h"
 #include "voxlist/bus/multicast/address.h"
-#include "voxlist/bus/multicast/network_check.h"
 #include "voxlist/bus/transport.h"
 
 namespace voxlist::bus {
@@ -145,12 +144,6 @@ std::string why_invalid(const BusOptions& options) {
       "239.255.255.255), memq:// or "
       "file://PATH",
       options.url);
-}
-
-std::vector<std::string> network_findings(const BusOptions& options) {
-  const auto address = multicast_address(options.url);
-  if (!address) return {};
-  return network_findings(*address, options.receive_buffer_bytes);
 }
 
 Bus::Bus(const BusOptions& options) : impl_(std::make_unique<Impl>()) {

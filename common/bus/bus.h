@@ -35,10 +35,6 @@ struct BusOptions {
 /// sense. Empty when one can.
 std::string why_invalid(const BusOptions& options);
 
-/// What of this machine makes messages between machines get lost, a sentence each with what to do;
-/// nothing where the url's messages stay on this machine.
-std::vector<std::string> network_findings(const BusOptions& options);
-
 /// Whether a url names a recording, which ends, and not a network.
 bool is_recording(const std::string& url);
 

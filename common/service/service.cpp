@@ -12,6 +12,7 @@
 
 #include "voxlist/bus/bus.h"
 #include "voxlist/bus/health.h"
+#include "voxlist/bus/network_report.h"
 #include "voxlist/health_t.hpp"
 #include "voxlist/service/command_line.h"
 #include "voxlist/service/drop_report.h"
@@ -80,7 +81,8 @@ void stop(bus::Bus& bus, bus::Health& health, RunningService& service, std::int6
 }
 
 // False: the bus ended before anyone asked for it.
-bool run_until_stopped(bus::Bus& bus, bus::Health& health, RunningService& service) {
+bool run_until_stopped(bus::Bus& bus, bus::Health& health, RunningService& service,
+                       bus::NetworkReport& network) {
   const Clock clock;
   DropReport drops;
   StateLog states;
@@ -93,6 +95,7 @@ bool run_until_stopped(bus::Bus& bus, bus::Health& health, RunningService& servi
     service.tick(now_us);
     if (resources.is_due(now_us))
       resources.take(bus.traffic(), memory_of_process(), now_us, health);
+    network.take(now_us, health);
     if (const auto message = health.due(now_us, bus.counters()))
       bus.publish(bus::kHealth, *message);
     log_troubles(bus, drops, told_error, now_us);
@@ -111,13 +114,6 @@ FileLock take_lock(const ServiceInfo& info, const bus::BusOptions& options) {
         "already runs on this bus as process {}; stop that one first", lock_owner(file)));
   }
   return std::move(*lock);
-}
-
-// What the network lacks that is between machines. It holds as long as the service runs.
-void tell_findings(const bus::BusOptions& options, bus::Health& health) {
-  int number = 0;
-  for (const std::string& finding : bus::network_findings(options))
-    health.raise(fmt::format("network{}", ++number), bus::Health::State::kWarning, finding);
 }
 
 // What a service starts, such as lcm-logger, is on the same bus.
@@ -142,10 +138,12 @@ int run_service(int argc, char** argv, const ServiceInfo& info,
   const FileLock lock = take_lock(info, options);
   bus::Bus bus(options);
   bus::Health health(info.name);
-  tell_findings(options, health);
+  bus::NetworkReport network(options);
+  network.take(0, health);
   const auto service = make(bus, health);
-  spdlog::info("started on {}", options.url);
-  const bool wanted = run_until_stopped(bus, health, *service) || bus::is_recording(options.url);
+  spdlog::info("started on {}{}", options.url, network.summary());
+  const bool wanted =
+      run_until_stopped(bus, health, *service, network) || bus::is_recording(options.url);
   if (!wanted)
     throw std::runtime_error(fmt::format("the connection to {} broke; start again", options.url));
   spdlog::info("stopped");

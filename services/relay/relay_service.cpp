@@ -71,14 +71,15 @@ RelayService::RelayService(bus::Bus& bus, bus::Health& health, const fleet::Rela
       health_(health),
       robot_(config.robot),
       fleet_(fleet_options(config)),
+      network_(fleet_options(config), "fleet"),
       out_(config.channels_in_use(), fleet::Direction::kOut,
            [this](const std::string& channel, bus::Bytes bytes) { send_to_fleet(channel, bytes); }),
       in_(config.channels_in_use(), fleet::Direction::kIn,
           [this](const std::string& channel, bus::Bytes bytes) { send_to_robot(channel, bytes); }) {
-  int number = 0;
-  for (const std::string& finding : bus::network_findings(fleet_options(config)))
-    health_.raise(fmt::format("fleet_network{}", ++number), bus::Health::State::kWarning,
-                  "fleet: " + finding);
+  network_.take(0, health_);
+  if (const auto address = bus::multicast_address(config.url); address && address->ttl == 0)
+    health_.raise("fleet_stays_here", bus::Health::State::kWarning,
+                  "fleet: what this robot says stays on this machine: url needs ?ttl=1");
   const std::vector<Row> rows = config.channels_in_use();
   fleet_.subscribe_all(patterns_in(robot_, rows),
                        [this](const std::string& name, bus::Bytes b) { take_from_fleet(name, b); });
@@ -161,6 +162,7 @@ void RelayService::report() {
   tell("out/", out_.counters());
   tell("in/", in_.counters());
   report_traffic();
+  network_.take(now_us_, health_);
   look_for_namesakes();
   send_sent_counts();
   std::erase_if(peers_,

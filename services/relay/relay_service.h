@@ -6,6 +6,7 @@
 #include <string>
 
 #include "voxlist/bus/bus.h"
+#include "voxlist/bus/network_report.h"
 #include "voxlist/fleet/loss_count.h"
 #include "voxlist/fleet/one_way.h"
 #include "voxlist/fleet/relay_config.h"
@@ -66,6 +67,7 @@ class RelayService {
   bus::Health& health_;
   const std::string robot_;
   bus::Bus fleet_;
+  bus::NetworkReport network_;
   fleet::OneWay out_, in_;
   std::int64_t now_us_ = 0;
   std::optional<std::int64_t> arrival_us_;  // of the message that came last

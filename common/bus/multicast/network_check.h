@@ -1,19 +1,44 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "voxlist/bus/multicast/address.h"
+#include "voxlist/bus/multicast/network_interface.h"
 
 namespace voxlist::bus {
 
-/// What of this machine's network makes messages between machines (ttl 1 and more) get lost, a
-/// sentence each with what to do: the route leads nowhere, receive buffers are small, or so is the
-/// room in which the kernel puts fragments together. `receive_buffer_bytes`: asked of the kernel.
-/// Nothing for messages that stay on this machine.
-std::vector<std::string> network_findings(const MulticastAddress& address,
-                                          int receive_buffer_bytes);
+/// What of this machine decides whether messages between machines arrive.
+struct NetworkFacts {
+  /// By which packets to the address leave; nothing when there is no way.
+  std::optional<NetworkInterface> interface;
+  /// What the kernel gives of the receive buffer that it is asked for.
+  std::int64_t receive_buffer_bytes = 0;
+  /// In which it puts fragments together; nothing where it does not tell.
+  std::optional<std::int64_t> fragment_room_bytes;
+};
+
+NetworkFacts network_facts(const MulticastAddress& address, int receive_buffer_bytes);
+
+/// One thing that is not as it should be.
+struct NetworkFinding {
+  /// One of few: "route", "interface", "ttl", "mtu", "receive_buffer", "fragments".
+  std::string key;
+  /// Messages get lost by it, more than they would otherwise; else it is just to be known.
+  bool is_fault = true;
+  /// What, and what to do.
+  std::string sentence;
+};
+
+/// What makes messages between machines (ttl 1 and more) get lost. Nothing for messages that stay
+/// on this machine. `receive_buffer_bytes`: asked of the kernel.
+std::vector<NetworkFinding> network_findings(const MulticastAddress& address,
+                                             const NetworkFacts& facts, int receive_buffer_bytes);
+
+/// Where messages go, in a line: "leave by eth0, ttl 1, MTU 1500".
+std::string network_summary(const MulticastAddress& address, const NetworkFacts& facts);
 
 /// The interface that packets to this address leave by, of the text of /proc/net/route: that of the
 /// narrowest route; empty when there is no way.
