@@ -65,6 +65,7 @@ std::string route_fault(const MulticastAddress& address,
 
 std::string interface_fault(const NetworkInterface& interface) {
   const std::string& name = interface.name;
+  if (interface.is_loopback) return {};
   if (!interface.is_up) return fmt::format("{0} is down: ip link set dev {0} up", name);
   if (!interface.has_multicast)
     return fmt::format("{0} carries no multicast: ip link set dev {0} multicast on", name);

@@ -49,8 +49,10 @@ TEST(NetworkCheck, HasNothingToSayOfOneMachineOrAGoodNetwork) {
 }
 
 TEST(NetworkCheck, TellsOfRoutesThatLeadNowhere) {
-  EXPECT_THAT(findings(with({.name = "lo", .is_loopback = true, .mtu_bytes = 65'536})),
-              tells("route", "loopback"));
+  EXPECT_THAT(
+      findings(
+          with({.name = "lo", .is_loopback = true, .has_multicast = false, .mtu_bytes = 65'536})),
+      tells("route", "loopback"));
   NetworkFacts none = good();
   none.interface.reset();
   EXPECT_THAT(findings(none), tells("route", "no route"));
