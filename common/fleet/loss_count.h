@@ -16,7 +16,7 @@ using SentCounts = std::map<std::string, std::int64_t>;
 class LossCount {
  public:
   /// Most channels of a robot: their names come from the network.
-  static constexpr std::size_t kMostChannels = 1000;
+  static constexpr std::size_t kMostChannels = 100;
 
   /// A message of the channel came.
   void hear(const std::string& channel);

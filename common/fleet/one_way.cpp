@@ -25,23 +25,41 @@ bool is_raw_cloud(bus::Bytes bytes) {
 }  // namespace
 
 OneWay::OneWay(const std::vector<RelayChannel>& rows, Direction direction, Send send)
-    : send_(std::move(send)) {
+    : send_(std::move(send)), direction_(direction) {
   std::ranges::copy_if(rows, std::back_inserter(rows_),
                        [&](const RelayChannel& row) { return row.direction == direction; });
 }
 
 void OneWay::take(const std::string& robot, const std::string& name, const std::string& channel,
                   bus::Bytes bytes, std::int64_t now_us) {
-  Stream* stream = stream_of(robot, name, channel);
+  Stream* stream = stream_of(robot, name, channel, now_us);
   if (stream == nullptr) return;
+  stream->last_us = now_us;
   if (!stream->clouds && is_raw_cloud(bytes)) {
     ++counters_[stream->row + "/raw_cloud"];
     return;
   }
+  if (direction_ == Direction::kIn && stream->repeats.is_repeat(bytes, now_us)) {
+    ++counters_[stream->row + "/repeated"];
+    return;
+  }
   if (!stream->waiting && stream->throttle.pass(bytes.size(), now_us))
     return pass(channel, *stream, bytes);
-  if (stream->waiting) ++counters_[stream->row + "/held_back"];
-  stream->waiting.emplace(bytes.begin(), bytes.end());
+  wait(*stream, bytes);
+}
+
+void OneWay::wait(Stream& stream, bus::Bytes bytes) {
+  if (stream.waiting) {
+    ++counters_[stream.row + "/held_back"];
+    waiting_bytes_ -= stream.waiting->size();
+    stream.waiting.reset();
+  }
+  if (waiting_bytes_ + bytes.size() > kMostWaiting) {
+    ++counters_[stream.row + "/too_much_waiting"];
+    return;
+  }
+  waiting_bytes_ += bytes.size();
+  stream.waiting.emplace(bytes.begin(), bytes.end());
 }
 
 void OneWay::tick(std::int64_t now_us) {
@@ -49,6 +67,7 @@ void OneWay::tick(std::int64_t now_us) {
     if (!stream.waiting || !stream.throttle.pass(stream.waiting->size(), now_us)) continue;
     const std::vector<std::uint8_t> bytes = std::move(*stream.waiting);
     stream.waiting.reset();
+    waiting_bytes_ -= bytes.size();
     pass(channel, stream, bytes);
   }
 }
@@ -61,16 +80,21 @@ const RelayChannel* OneWay::row_of(const std::string& robot, const std::string& 
 }
 
 OneWay::Stream* OneWay::stream_of(const std::string& robot, const std::string& name,
-                                  const std::string& channel) {
+                                  const std::string& channel, std::int64_t now_us) {
   if (const auto known = streams_.find(channel); known != streams_.end()) return &known->second;
   const RelayChannel* row = row_of(robot, name);
   if (row == nullptr) return nullptr;
+  if (streams_.size() >= kMostChannels)
+    std::erase_if(streams_, [&](const auto& stream) {
+      return !stream.second.waiting && now_us - stream.second.last_us > kSilent_us;
+    });
   if (streams_.size() >= kMostChannels) {
     ++counters_["too_many_channels"];
     return nullptr;
   }
   const Throttle throttle(row->max_hz, row->max_kBps * 1e3);
-  return &streams_.emplace(channel, Stream{row->name, row->clouds, throttle, {}}).first->second;
+  return &streams_.emplace(channel, Stream{row->name, row->clouds, throttle, now_us, {}, {}})
+              .first->second;
 }
 
 void OneWay::pass(const std::string& channel, const Stream& stream, bus::Bytes bytes) {

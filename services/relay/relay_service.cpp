@@ -29,7 +29,12 @@ constexpr std::int64_t kForgotten_us = 600'000'000;
 constexpr const char* kSentCounts = "RELAY/SENT";
 
 // Robots that are told apart: their names come from the network.
-constexpr std::size_t kMostRobots = 1000;
+constexpr std::size_t kMostRobots = 200;
+
+// What this robot says in the fleet it hears itself, as anyone does. Nothing of it for so long
+// (us), though it was said, and the connection is broken: its interface went, and came back as
+// another.
+constexpr std::int64_t kDeaf_us = 10'000'000;
 
 bus::BusOptions fleet_options(const fleet::RelayConfig& config) {
   return {.url = config.url, .prefix = "", .receive_buffer_bytes = config.receive_buffer_bytes};
@@ -93,12 +98,17 @@ RelayService::RelayService(bus::Bus& bus, bus::Health& health, const fleet::Rela
 
 void RelayService::take_from_fleet(const std::string& wire_name, bus::Bytes bytes) {
   const std::size_t slash = wire_name.find('/');
+  if (!bus::is_plain_channel(wire_name) || slash == 0 || slash == std::string::npos)
+    return health_.count("no_robots_names");
   const std::string robot = wire_name.substr(0, slash), name = wire_name.substr(slash + 1);
   if (robot == robot_) {
     ++own_heard_;
+    own_heard_us_ = now_us_;
     return;
   }
-  if (peers_.size() >= kMostRobots && !peers_.contains(robot)) return;
+  if (peers_.size() >= kMostRobots && !peers_.contains(robot)) forget_peers(kLasting_us);
+  if (peers_.size() >= kMostRobots && !peers_.contains(robot))
+    return health_.count("too_many_robots");
   Peer& peer = peers_[robot];
   peer.heard_us = now_us_;
   if (name == kSentCounts) return take_sent_counts(robot, bytes);
@@ -164,12 +174,24 @@ void RelayService::report() {
   report_traffic();
   network_.take(now_us_, health_);
   look_for_namesakes();
+  look_for_rings();
+  throw_if_deaf();
   send_sent_counts();
-  std::erase_if(peers_,
-                [&](const auto& peer) { return now_us_ - peer.second.heard_us > kForgotten_us; });
+  forget_peers(kForgotten_us);
   const auto there = std::ranges::count_if(
       peers_, [&](const auto& peer) { return now_us_ - peer.second.heard_us <= kLasting_us; });
   health_.gauge("robots_heard", static_cast<double>(there));
+}
+
+void RelayService::forget_peers(std::int64_t silent_us) {
+  std::erase_if(peers_,
+                [&](const auto& peer) { return now_us_ - peer.second.heard_us > silent_us; });
+}
+
+void RelayService::throw_if_deaf() {
+  if (!own_heard_us_) own_heard_us_ = now_us_;
+  if (now_us_ - *own_heard_us_ > kDeaf_us)
+    throw std::runtime_error("nothing comes through the fleet's bus any more; start again");
 }
 
 void RelayService::report_traffic() {
@@ -193,6 +215,14 @@ void RelayService::report_traffic() {
 void RelayService::look_for_namesakes() {
   tell(namesakes_, std::max<std::int64_t>(0, own_heard_ - sent_), "namesakes_messages",
        "messages came from another robot of this name: give each a name of its own");
+}
+
+void RelayService::look_for_rings() {
+  std::int64_t repeated = 0;
+  for (const auto& [what, count] : in_.counters())
+    if (what.ends_with("/repeated")) repeated += count;
+  tell(rings_, repeated, "messages_repeated",
+       "messages came in again: do relays join the same two buses twice?");
 }
 
 void RelayService::tell(const std::string& direction, const bus::Counters& counters) {

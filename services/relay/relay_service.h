@@ -32,7 +32,7 @@ class RelayService {
   static void check(const fleet::RelayConfig& config, const bus::BusOptions& bus);
 
   /// Takes what the fleet says, passes on what may go by now, and tells HEALTH. Throws
-  /// std::runtime_error when the connection to the fleet broke.
+  /// std::runtime_error when the connection to the fleet broke, or carries nothing any more.
   void tick(std::int64_t now_us);
 
   /// Can be read when a message of the fleet waits.
@@ -62,6 +62,9 @@ class RelayService {
   void tell(Trouble& trouble, std::int64_t count, const std::string& key,
             const std::string& sentence);
   void look_for_namesakes();
+  void look_for_rings();
+  void forget_peers(std::int64_t silent_us);
+  void throw_if_deaf();
 
   bus::Bus& bus_;
   bus::Health& health_;
@@ -75,8 +78,9 @@ class RelayService {
   bus::Counters told_;  // of what HEALTH has counted
   std::map<std::string, Peer> peers_;
   fleet::SentCounts sent_by_channel_;
-  Trouble unsent_, dropped_, incomplete_, namesakes_;
+  Trouble unsent_, dropped_, incomplete_, namesakes_, rings_;
   std::int64_t sent_ = 0, own_heard_ = 0;
+  std::optional<std::int64_t> own_heard_us_;
 };
 
 }  // namespace voxlist::services

@@ -110,10 +110,49 @@ TEST_F(OneWayTest, TakesTheRobotsThatARowNames) {
 
 TEST_F(OneWayTest, BoundsWhatManyNamesCost) {
   OneWay way({row("*")}, Direction::kOut, note());
-  for (std::size_t i = 0; i < OneWay::kMostChannels + 5; ++i)
-    out(way, std::to_string(i), 1, 0);
+  for (std::size_t i = 0; i < OneWay::kMostChannels + 5; ++i) out(way, std::to_string(i), 1, 0);
   EXPECT_EQ(sent_.size(), OneWay::kMostChannels);
   EXPECT_EQ(way.counters().at("too_many_channels"), 5);
+}
+
+TEST_F(OneWayTest, LeavesOutWhatComesInAgain) {
+  OneWay way({row("POSE", Direction::kIn)}, Direction::kIn, note());
+  const std::vector<std::uint8_t> one{1}, two{2};
+  way.take("b", "POSE", "b/POSE", one, 0);
+  way.take("b", "POSE", "b/POSE", two, 1000);
+  way.take("b", "POSE", "b/POSE", one, 2000);
+  way.take("c", "POSE", "c/POSE", one, 2000);
+  EXPECT_EQ(sent_, (Sent{{"b/POSE", 1}, {"b/POSE", 2}, {"c/POSE", 1}}));
+  EXPECT_EQ(way.counters().at("POSE/repeated"), 1);
+  way.take("b", "POSE", "b/POSE", one, 4'000'000);
+  EXPECT_EQ(sent_.size(), 4U) << "seconds later it is said again on purpose";
+}
+
+TEST_F(OneWayTest, LetsARobotsOwnWordsGoOutAgain) {
+  OneWay way({row("GRID_low")}, Direction::kOut, note());
+  out(way, "GRID_low", 1, 0);
+  out(way, "GRID_low", 1, 1000);
+  EXPECT_EQ(sent_.size(), 2U);
+}
+
+TEST_F(OneWayTest, GivesUpChannelsThatAreSilent) {
+  OneWay way({row("*")}, Direction::kOut, note());
+  for (std::size_t i = 0; i < OneWay::kMostChannels; ++i) out(way, std::to_string(i), 1, 0);
+  out(way, "LATE", 1, OneWay::kSilent_us);
+  EXPECT_EQ(sent_.size(), OneWay::kMostChannels);
+  out(way, "LATE", 1, OneWay::kSilent_us + 1);
+  EXPECT_EQ(sent_.size(), OneWay::kMostChannels + 1);
+}
+
+TEST_F(OneWayTest, LetsOnlySoMuchWait) {
+  OneWay way({row("*", Direction::kOut, 0.01)}, Direction::kOut, note());
+  const std::vector<std::uint8_t> large(30'000'000, 1);
+  for (const std::string name : {"A", "B", "C", "D", "E"})
+    for (int i = 0; i < 3; ++i) way.take("", name, "me/" + name, large, 0);
+  EXPECT_EQ(sent_.size(), 5U) << "the first of each";
+  EXPECT_EQ(way.counters().at("*/too_much_waiting"), 4) << "of D and E both";
+  way.tick(101'000'000);
+  EXPECT_EQ(sent_.size(), 8U);
 }
 
 }  // namespace
