@@ -35,6 +35,10 @@ BusFeed::BusFeed(bus::Bus& bus, RobotScene& scene, const std::vector<std::string
                 [this, &scene](const pointcloud_t& m) { scene.take_cloud(m, now_us_); });
   bus.subscribe(bus::kCloudSlice,
                 [this, &scene](const pointcloud_t& m) { scene.take_slice(m, now_us_); });
+  bus.subscribe_all(OtherRobots::kChannels,
+                    [this, &scene](const std::string& channel, bus::Bytes bytes) {
+                      scene.take_other(channel, bytes, now_us_);
+                    });
   bus.subscribe(bus::kMapEdits, [this, &scene](const map_edits_t& m) {
     if (const auto edits = bus::from_message(m)) scene.take(*edits, now_us_);
   });

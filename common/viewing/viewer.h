@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "voxlist/viewing/blocks/map_levels.h"
 #include "voxlist/viewing/blocks/space_levels.h"
@@ -18,6 +19,7 @@ namespace voxlist::viewing {
 struct ViewerConfig {
   double detail_m = 0.05;
   int most_points = 5000;
+  std::vector<OtherRobotPlace> other_robots;
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -26,6 +28,9 @@ struct ViewerConfig {
       0.04, 1.0);
     v("most_points", most_points, "points of a cloud that are shown: more load the line", 100,
       100'000);
+    v("other_robot", other_robots,
+      "where the maps of other robots of the fleet lie in this one; none: only robots with the "
+      "same map are drawn");
   }
 };
 
@@ -34,7 +39,8 @@ struct ViewerConfig {
 class Viewer {
  public:
   explicit Viewer(const ViewerConfig& config)
-      : levels_(config.detail_m), scene_(static_cast<std::size_t>(config.most_points)) {}
+      : levels_(config.detail_m),
+        scene_(static_cast<std::size_t>(config.most_points), config.other_robots) {}
 
   /// Where messages other than the map's go.
   RobotScene& scene() { return scene_; }

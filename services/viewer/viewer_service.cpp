@@ -123,6 +123,12 @@ void ViewerService::subscribe(const planning::RobotProfiles& robots) {
     viewer_.scene().take_slice(m, now_us_);
     foxglove_.take(bus::kCloudSlice, m);
   });
+  bus_.subscribe_all(viewing::OtherRobots::kChannels,
+                     [this](const std::string& channel, bus::Bytes bytes) {
+                       const bus::Fault fault = viewer_.scene().take_other(channel, bytes, now_us_);
+                       if (fault != bus::Fault::kNone)
+                         health_.count(std::string("other_robots/") + bus::fault_name(fault));
+                     });
   listen(bus::kMapEdits, [this](const map_edits_t& m) {
     if (const auto edits = bus::from_message(m)) viewer_.scene().take(*edits, now_us_);
   });

@@ -1,8 +1,9 @@
 // Plays a robot and its services for the page's tests: says on the bus what it is told to on
 // standard input, a line each, and writes what others ask.
-// Lines: map ROOMS; track X Y YAW; lost; ambiguous; loop.
-// Free space: the rooms up to 2 m, once somebody asks for it.
-// Output: ready, then hint X Y YAW SIGMA_RAD; want N; edit ACTION ID X Y Z X Y Z.
+// Lines: map ROOMS; track X Y YAW; lost; ambiguous; loop; others on, others off: two robots of the
+// fleet, robot_b in the same map, robot_c in one of its own. Free space: the rooms up to 2 m, once
+// somebody asks for it. Output: ready, then hint X Y YAW SIGMA_RAD; want N; edit ACTION ID X Y Z X
+// Y Z.
 #include <poll.h>
 #include <unistd.h>
 
@@ -108,6 +109,7 @@ class Stage {
     if (what == "map") show_map(words);
     if (what == "track") words >> pose_.x_m >> pose_.y_m >> pose_.yaw_rad;
     if (what == "loop") close_loop();
+    if (what == "others") words >> others_;
     if (what == "track" || what == "lost" || what == "ambiguous") state_ = what;
   }
 
@@ -181,6 +183,10 @@ class Stage {
     said_us_ = now_us();
     say_health("localiser");
     say_health("mapper");
+    if (others_ == "on") {
+      say_other("robot_b", map_id_, {5.0, 1.0, 0.0});
+      say_other("robot_c", map_id_ + 100, {1.0, 1.0, 0.0});
+    }
     if (state_.empty()) return;
     bus_.publish(bus::kCloud, cloud());
     bus_.publish(bus::kLocalisation, localisation());
@@ -194,6 +200,17 @@ class Stage {
     sure.covariance[8] = 0.001;
     bus_.publish(bus::kPoseCovariance, sure);
     bus_.publish(bus::kObstacles, obstacles());
+  }
+
+  // As a relay brings it.
+  void say_other(const std::string& name, std::int64_t map_id, const Pose2& pose) {
+    localisation_t state{};
+    state.utime = said_us_;
+    state.map_id = map_id;
+    state.state = localisation_t::STATE_TRACKING;
+    bus_.publish(bus::Channel<localisation_t>{(name + "/LOCALISATION").c_str()}, state);
+    bus_.publish(bus::Channel<pose_t>{(name + "/POSE").c_str()},
+                 bus::to_message(StampedPose2{said_us_, pose}));
   }
 
   void say_health(const char* service) {
@@ -255,7 +272,7 @@ class Stage {
   OccupancyMap map_{VoxelMap(0.05), VoxelMap(0.1)};
   test::StandInMapper mapper_, free_;
   bus::EditedBoxes edits_;
-  std::string input_, state_;
+  std::string input_, state_, others_;
   Pose2 pose_;
   std::int64_t version_ = 0, moves_ = 0, said_us_ = 0;
   std::int32_t seq_ = 0;

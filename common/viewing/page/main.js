@@ -46,7 +46,7 @@ const timebar = new Timebar(bus, commands);
 function start_session() {
   map.start_over(-1);
   wish_space();
-  for (const prefix of ["path/", "slice/", "grid/", "robot", "pose", "sigma", "cloud", "edits", "service/"]) bus.forget(prefix);
+  for (const prefix of ["path/", "slice/", "grid/", "robot", "pose", "sigma", "cloud", "edits", "service/", "other/"]) bus.forget(prefix);
   overlay.loops = [];
 }
 
@@ -64,8 +64,7 @@ function drop_path_before(first) {
 /** @param {import("./messages.js").Told} told */
 function note_loop(told) {
   overlay.loops.push(told.data.at);
-  const [x, y] = told.data.moved;
-  if (told.age_ms < 2000) toast(`A loop was closed: the newest keyframe moved ${Math.hypot(x, y).toFixed(2)} m.`);
+  if (told.age_ms < 2000) toast(`A loop was closed: the newest keyframe moved ${Math.hypot(...told.data.moved.slice(0, 2)).toFixed(2)} m.`);
 }
 
 function resize() {
@@ -99,14 +98,14 @@ const keys = {
   arrowdown: () => move(0, -60),
 };
 
-/**
- * @param {number} dx
- * @param {number} dy
- */
-function move(dx, dy) {
+/** @param {number} dx @param {number} dy */
+const move = (dx, dy) => (moved(true), camera.pan(dx, dy));
+
+/** The operator looks elsewhere. @param {boolean} pans */
+function moved(pans) {
   fits = false;
-  follow(false);
-  camera.pan(dx, dy);
+  if (pans) follow(false);
+  dirty = true;
 }
 
 /** @param {boolean} on */
@@ -148,11 +147,7 @@ function wire() {
   }
   steer(overlay.canvas, camera, {
     drag: (event, phase) => (dirty = true) && commands.drag(event, phase),
-    moved: (pans) => {
-      fits = false;
-      if (pans) follow(false);
-      dirty = true;
-    },
+    moved,
   });
 }
 

@@ -9,6 +9,7 @@
  */
 /** @typedef {{utime_us: number, position: [number, number, number], yaw: number}} Pose */
 /** @typedef {{utime_us: number, covariance: number[]}} Sigma */
+/** @typedef {{utime_us: number, state: string, pose: [number, number, number, number] | null}} Other */
 /** @typedef {{service: string, state: "OK" | "WARNING" | "ERROR", message: string, p99_ms: number, pid: number}} Service */
 /** @typedef {{epoch: number, level: number, edge_m: number, left: [number, number]}} Blocks */
 /** @typedef {{id: number, kind: string, lowest: number[], highest: number[], placed: number[]}} Edit */

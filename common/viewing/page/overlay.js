@@ -55,10 +55,6 @@ export class Overlay {
     return pose && [...pose.position, pose.yaw];
   }
 
-  get robot_is_fresh() {
-    return this.bus.is_fresh("robot", STALE_S.robot);
-  }
-
   draw() {
     const { context } = this;
     context.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
@@ -69,6 +65,7 @@ export class Overlay {
     this.draw_edits();
     if (this.layers.has("path")) this.draw_path();
     if (this.layers.has("cloud")) this.draw_cloud();
+    this.draw_others();
     this.draw_robot();
     this.draw_aim();
     this.draw_scale();
@@ -135,12 +132,10 @@ export class Overlay {
 
   draw_cloud() {
     this.context.fillStyle = css("doubt");
-    const told = ["cloud"].concat([...this.bus.topics.keys()].filter((topic) => topic.startsWith("slice/")));
-    for (const topic of told) {
-      const message = this.bus.topics.get(topic);
-      if (!message || !this.bus.is_fresh(topic, topic === "cloud" ? STALE_S.cloud : 1)) continue;
-      const at = placed(/** @type {import("./messages.js").Placed} */ (message.data).pose);
-      const points = new Int16Array(message.bytes);
+    for (const { topic, data, bytes } of [...this.bus.with_prefix("cloud"), ...this.bus.with_prefix("slice/")]) {
+      if (!this.bus.is_fresh(topic, topic === "cloud" ? STALE_S.cloud : 1)) continue;
+      const at = placed(/** @type {import("./messages.js").Placed} */ (data).pose);
+      const points = new Int16Array(bytes);
       this.context.globalAlpha = Math.max(0.25, 1 - this.bus.age_s(topic) / STALE_S.cloud);
       for (let i = 0; i < points.length; i += 3) {
         const [x, y] = this.camera.project(at(points[i] / 100, points[i + 1] / 100, points[i + 2] / 100));
@@ -153,11 +148,12 @@ export class Overlay {
   draw_robot() {
     const robot = /** @type {import("./messages.js").Robot | undefined} */ (this.bus.data("robot"));
     const pose = this.pose();
-    const tracks = this.robot_is_fresh && robot?.state === "TRACKING";
+    const fresh = this.bus.is_fresh("robot", STALE_S.robot);
+    const tracks = fresh && robot?.state === "TRACKING";
     const z = pose ? pose[2] : 0;
     if (robot?.state === "AMBIGUOUS")
       for (const mode of robot.modes) {
-        const colour = css(this.robot_is_fresh ? "doubt" : "stale");
+        const colour = css(fresh ? "doubt" : "stale");
         const ghost = [mode.pose[0], mode.pose[1], z, mode.pose[2]];
         this.body(ghost, colour, 0.35 + 0.6 * mode.probability);
         this.ellipse(ghost, mode.covariance, colour);
@@ -168,6 +164,15 @@ export class Overlay {
     const covariance = this.bus.data("sigma")?.covariance;
     if (tracks && covariance) this.ellipse(pose, covariance, css("good"));
     this.body(pose, css(tracks ? "good" : "stale"), tracks ? 0.9 : 0.2);
+  }
+
+  /** Robots of the fleet that have a place in this map. */
+  draw_others() {
+    for (const { topic, data } of this.bus.with_prefix("other/").filter((told) => told.data.pose)) {
+      const tracks = this.bus.is_fresh(topic, STALE_S.pose) && data.state === "TRACKING";
+      this.body(data.pose, css(tracks ? "accent" : "stale"), tracks ? 0.9 : 0.4);
+      this.label(topic.slice("other/".length), placed(data.pose)(0, 0, 0.8));
+    }
   }
 
   /**

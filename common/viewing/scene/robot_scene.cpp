@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cstdlib>
 #include <utility>
 #include <voxlist/health_t.hpp>
@@ -31,12 +30,6 @@ constexpr std::int32_t kMostCells = 16'384;
 // Slices that a page has at once: a second of them.
 constexpr std::int64_t kSlices = 16;
 
-// A topic's name goes into JSON as it is.
-bool is_name(const std::string& text) {
-  const auto fits = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-'; };
-  return !text.empty() && text.size() <= 40 && std::ranges::all_of(text, fits);
-}
-
 // `height_m` and yaw: of base in the map.
 std::string placed(std::int64_t utime_us, double x_m, double y_m, double height_m, double yaw_rad) {
   return fmt::format("{{\"utime_us\":{},\"pose\":[{:.4f},{:.4f},{:.4f},{:.5f}]}}", utime_us, x_m,
@@ -48,6 +41,7 @@ std::string placed(std::int64_t utime_us, double x_m, double y_m, double height_
 void RobotScene::take(const localisation_t& message, std::int64_t now_us) {
   if (std::exchange(state_, message.state) != message.state) since_us_ = message.utime;
   if (message.state != localisation_t::STATE_TRACKING) travelled_.interrupt();
+  map_id_ = message.map_id;
   board_.put("robot", json_of(message, since_us_), now_us);
   place_cloud(message, now_us);
 }
@@ -70,6 +64,11 @@ void RobotScene::take(const pose_t& message, std::int64_t now_us) {
   travelled_.add(pose_->position, keyframes_, now_us, board_);
 }
 
+bus::Fault RobotScene::take_other(const std::string& channel, bus::Bytes bytes,
+                                  std::int64_t now_us) {
+  return others_.take(channel, bytes, map_id_, now_us, board_);
+}
+
 void RobotScene::take(const keyframe_t& message, std::int64_t now_us) {
   if (const auto moved = keyframes_.take(message))
     travelled_.move(*moved, keyframes_.pose(*moved), now_us, board_);
@@ -84,7 +83,7 @@ void RobotScene::take(const obstacles_t& message, std::int64_t now_us) {
 }
 
 void RobotScene::take(const health_t& message, std::int64_t now_us) {
-  if (!is_name(message.service)) return;
+  if (!is_topic_name(message.service)) return;
   board_.put("service/" + message.service, json_of(message), now_us);
 }
 
@@ -102,7 +101,7 @@ void RobotScene::take(const map_octree_t& message, std::int64_t now_us) {
 
 void RobotScene::take(const traversability_t& message, std::int64_t now_us) {
   const auto fits = [](std::int32_t cells) { return cells > 0 && cells <= kMostCells; };
-  if (!is_name(message.profile) || !std::ranges::all_of(message.dimensions, fits)) return;
+  if (!is_topic_name(message.profile) || !std::ranges::all_of(message.dimensions, fits)) return;
   board_.put("grid/" + message.profile, json_of(message), now_us, message.cells);
 }
 
@@ -135,6 +134,8 @@ void RobotScene::take(const bus::MapChange& change, std::int64_t now_us) {
 
 void RobotScene::clear() {
   board_.drop_all_but("hello");
+  others_.clear();
+  map_id_.reset();
   start_over(0);
   state_ = -1;
 }

@@ -9,6 +9,7 @@
 #include "voxlist/bus/maps/map_chunks.h"
 #include "voxlist/viewing/scene/board.h"
 #include "voxlist/viewing/scene/keyframe_poses.h"
+#include "voxlist/viewing/scene/other_robots.h"
 #include "voxlist/viewing/scene/travelled.h"
 
 namespace voxlist {
@@ -30,7 +31,8 @@ namespace voxlist::viewing {
 class RobotScene {
  public:
   /// `most_points`: of a cloud that is shown.
-  explicit RobotScene(std::size_t most_points) : most_points_(most_points) {}
+  explicit RobotScene(std::size_t most_points, const std::vector<OtherRobotPlace>& others = {})
+      : most_points_(most_points), others_(others) {}
 
   void take(const localisation_t& message, std::int64_t now_us);
   void take(const pose_t& message, std::int64_t now_us);
@@ -50,6 +52,10 @@ class RobotScene {
   /// A cloud stands where its LOCALISATION says, which comes later; a slice at the newest POSE.
   void take_cloud(const pointcloud_t& message, std::int64_t now_us);
   void take_slice(const pointcloud_t& message, std::int64_t now_us);
+
+  /// What a relay brings of another robot, on a channel of OtherRobots::kChannels; why it is left
+  /// out.
+  bus::Fault take_other(const std::string& channel, bus::Bytes bytes, std::int64_t now_us);
 
   /// Notes keyframes that were moved.
   void take(const bus::MapChange& change, std::int64_t now_us);
@@ -83,6 +89,8 @@ class RobotScene {
   Board board_;
   KeyframePoses keyframes_;
   Travelled travelled_;
+  OtherRobots others_;
+  std::optional<std::int64_t> map_id_;
   std::int32_t state_ = -1;
   std::int64_t since_us_ = 0;  // of the state
   std::optional<WaitingCloud> cloud_;

@@ -1,6 +1,7 @@
 #include "voxlist/viewing/scene/telling.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
@@ -19,17 +20,6 @@ using nlohmann::json;
 // Text from the bus may be no UTF-8; numbers that are not finite become null.
 std::string text_of(const json& value) {
   return value.dump(-1, ' ', false, json::error_handler_t::replace);
-}
-
-const char* name_of_state(std::int32_t state) {
-  switch (state) {
-    case localisation_t::STATE_TRACKING:
-      return "TRACKING";
-    case localisation_t::STATE_AMBIGUOUS:
-      return "AMBIGUOUS";
-    default:
-      return "LOST";
-  }
 }
 
 json json_of_mode(const pose_mode_t& mode) {
@@ -65,6 +55,22 @@ std::vector<int> centimetres(const std::vector<float>& metres) {
 }
 
 }  // namespace
+
+const char* name_of_state(std::int32_t state) {
+  switch (state) {
+    case localisation_t::STATE_TRACKING:
+      return "TRACKING";
+    case localisation_t::STATE_AMBIGUOUS:
+      return "AMBIGUOUS";
+    default:
+      return "LOST";
+  }
+}
+
+bool is_topic_name(const std::string& text) {
+  const auto fits = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-'; };
+  return !text.empty() && text.size() <= 40 && std::ranges::all_of(text, fits);
+}
 
 std::string why_lost(const localisation_t& message) {
   if (message.map_version == 0) return "there is no map yet";

@@ -30,6 +30,12 @@ std::string json_of(const bus::EditedBoxes& edits);
 /// Of the grid's place and size; its cells are bytes.
 std::string json_of(const traversability_t& message);
 
+/// The state's name: "TRACKING", "AMBIGUOUS", "LOST".
+const char* name_of_state(std::int32_t state);
+
+/// Whether a text can be a topic's name, which goes into JSON as it is.
+bool is_topic_name(const std::string& text);
+
 /// Why the localiser knows no place, for a person.
 std::string why_lost(const localisation_t& message);
 

@@ -64,6 +64,24 @@ async function shows_how_sure_it_is(page, stage) {
   await shows(page, 2, "TRACKING");
 }
 
+async function shows_other_robots(page, stage) {
+  const row = (name) => document.querySelector(`tr[data-service="robot ${name}"]`)?.innerText.replace(/\s+/g, " ").trim();
+  stage.say("others on");
+  await within(page, 3, "other robots are listed", () => document.querySelectorAll('tr[data-service^="robot "]').length === 2);
+  const [b, c] = [await page.evaluate(row, "robot_b"), await page.evaluate(row, "robot_c")];
+  check("by name, with state, place and date", /^robot robot_b ?TRACKING at 5.0, 1.0 m 0.\d s$/.test(b), b);
+  check("and whether that is in this map", /^robot robot_c ?TRACKING at 1.0, 1.0 m in a map of its own 0/.test(c), c);
+  await page.waitForTimeout(300);
+  check("one is drawn in the map", await has_colour(page, "accent", [5, 1, 0.1]));
+  check("one that has no place in it is not", !(await has_colour(page, "accent", [1, 1, 0.1])));
+  await shot(page, "others");
+  stage.say("others off");
+  await within(page, 5, "those that fall silent are grey", () => document.querySelectorAll('tr[data-service^="robot "][data-stale]').length === 2);
+  await page.waitForTimeout(300);
+  check("in the map, too", (await has_colour(page, "stale", [5, 1, 0.1])) && !(await has_colour(page, "accent", [5, 1, 0.1])));
+  await shot(page, "others_silent");
+}
+
 async function shows_free_space(page) {
   await page.selectOption("#colour", "space");
   await within(page, 3, "free and occupied space comes to who looks at it", () => {
@@ -176,6 +194,7 @@ try {
     page.on("request", (request) => request.url().startsWith(URL_OF_PAGE) || elsewhere.push(request.url()));
     await shows_map_and_robot(page, stage);
     await shows_how_sure_it_is(page, stage);
+    await shows_other_robots(page, stage);
     await shows_free_space(page);
     await obeys(page, stage);
     await records(page);
