@@ -145,7 +145,9 @@ TEST_F(OneWayTest, GivesUpChannelsThatAreSilent) {
 }
 
 TEST_F(OneWayTest, LetsOnlySoMuchWait) {
-  OneWay way({row("*", Direction::kOut, 0.01)}, Direction::kOut, note());
+  RelayChannel slow = row("*", Direction::kOut, 0.01);
+  slow.max_kBps = 100'000.0;
+  OneWay way({slow}, Direction::kOut, note());
   const std::vector<std::uint8_t> large(30'000'000, 1);
   for (const std::string name : {"A", "B", "C", "D", "E"})
     for (int i = 0; i < 3; ++i) way.take("", name, "me/" + name, large, 0);

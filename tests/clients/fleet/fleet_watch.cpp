@@ -1,6 +1,8 @@
 // What a robot of a simulated fleet says, beside the truth. Listens on the robot's own bus until it
 // is ended, or for SECONDS. Usage: fleet_watch FILE [SECONDS]
 //
+// It writes where the robot is first, as soon as it knows: start X Y YAW.
+//
 // FILE gets the true pose at each cloud, a line each: UTIME X Y YAW. At the end it writes a line
 // for each answer of the localiser, then what there was, and of each other robot whose TRUTH a
 // relay brings, in how many clouds there are points on its body, and how often something moved
@@ -74,7 +76,7 @@ class Watch {
  public:
   explicit Watch(const char* file) : file_(file) {
     file_.precision(9);
-    bus_.subscribe(bus::kTruth, [this](const pose_t& m) { truth_.add(m); });
+    bus_.subscribe(bus::kTruth, [this](const pose_t& m) { take_truth(m); });
     bus_.subscribe(bus::kLocalisation, [this](const localisation_t& m) { answers_.push_back(m); });
     bus_.subscribe(bus::kCloud, [this](const pointcloud_t& m) { clouds_.push_back(m); });
     bus_.subscribe(bus::kObstacles, [this](const obstacles_t& m) { obstacles_.push_back(m); });
@@ -96,6 +98,15 @@ class Watch {
   }
 
  private:
+  void take_truth(const pose_t& message) {
+    const bool is_first = truth_.empty();
+    truth_.add(message);
+    const auto start = truth_.at(message.utime);
+    if (!is_first || !start) return;
+    std::printf("start %.4f %.4f %.5f\n", start->x_m, start->y_m, start->yaw_rad);
+    std::fflush(stdout);
+  }
+
   void judge(const localisation_t& m) {
     const auto truth = truth_.at(m.utime);
     if (!truth) return;
