@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "voxlist/planning/obstacles/typed_points.h"
 
@@ -19,12 +20,32 @@ constexpr float kTilt_rad = 0.05F, kTiltFrom_m = 2.0F, kFarthest_m = 4.0F;
 // it.
 constexpr double kFloor_m = 0.5;
 
-// Whether a point is deeper below all of the floor about it than slope and step explain.
+// Floor this far before a point and behind it (m) tells how high the floor between them is: where a
+// ramp of 11 deg begins it is 0.05 m lower at most.
+constexpr float kBetween_m = 0.5F;
+
+// Whether a point is deeper below the floor than slope and step explain.
 class Depth {
  public:
   Depth(const LocalGrid& grid, const LocalFloor& ground, const ObstacleConfig& config)
-      : grid_(grid), ground_(ground), rule_(config), disc_(grid.disc(kFloor_m)) {}
+      : grid_(grid),
+        ground_(ground),
+        rule_(config),
+        disc_(grid.disc(kFloor_m)),
+        wheels_m_(static_cast<float>(config.floor_z_m)) {}
 
+  // What lies in the wheels' own plane is none. Where floor is seen on both sides, the floor
+  // between them is known, and a ramp explains nothing: so a hole is told from less of its far
+  // wall.
+  bool is_drop(const Eigen::Vector3f& point, std::size_t cell) const {
+    const float range_m = grid_.range_m(cell), step_m = rule_.most_m(0.0F, range_m);
+    if (wheels_m_ - point.z() <= step_m) return false;
+    const auto level_m = between(point.head<2>());
+    return (level_m && *level_m - point.z() > step_m + tilt_m(range_m)) ||
+           is_below(point.z(), cell);
+  }
+
+ private:
   bool is_below(float z_m, std::size_t cell) const {
     if (!is_below(z_m, ground_.height_m[cell], ground_.away_m[cell], cell)) return false;
     bool below = true;
@@ -35,17 +56,40 @@ class Depth {
     return below;
   }
 
- private:
+  // Height of the floor at a place, by the nearest floor before it and behind it; nothing where one
+  // of them is not seen.
+  std::optional<float> between(const Eigen::Vector2f& place) const {
+    const Eigen::Vector2f out = place.normalized();
+    const auto before = along(place, -out), behind = along(place, out);
+    if (!before || !behind) return std::nullopt;
+    const float share = before->away_m / (before->away_m + behind->away_m);
+    return before->height_m + share * (behind->height_m - before->height_m);
+  }
+
+  struct Found {
+    float away_m, height_m;
+  };
+
+  std::optional<Found> along(const Eigen::Vector2f& place, const Eigen::Vector2f& way) const {
+    for (float on_m = grid_.cell_m(); on_m <= kBetween_m; on_m += grid_.cell_m() / 2.0F) {
+      const auto cell = grid_.at(place + on_m * way);
+      if (cell && ground_.is_floor[*cell]) return Found{on_m, ground_.height_m[*cell]};
+    }
+    return std::nullopt;
+  }
+
+  static float tilt_m(float range_m) { return kTilt_rad * std::max(0.0F, range_m - kTiltFrom_m); }
+
   bool is_below(float z_m, float floor_m, float away_m, std::size_t cell) const {
     const float range_m = grid_.range_m(cell);
-    const float tilt_m = kTilt_rad * std::max(0.0F, range_m - kTiltFrom_m);
-    return floor_m - z_m > rule_.most_m(away_m, range_m) + tilt_m;
+    return floor_m - z_m > rule_.most_m(away_m, range_m) + tilt_m(range_m);
   }
 
   const LocalGrid& grid_;
   const LocalFloor& ground_;
   const FloorRule rule_;
   const std::vector<LocalGrid::Neighbour> disc_;
+  const float wheels_m_;
 };
 
 // Where a ray went through a level.
@@ -79,7 +123,7 @@ std::vector<TypedPoint> find_drops(const LocalGrid& grid, const std::vector<Ray>
     const auto cell = grid.at(ray.point.head<2>());
     if (!cell || ray.utime_us > until_us) continue;
     const float level_m = ground.height_m[*cell];
-    if (ray.origin.z() <= level_m || !depth.is_below(ray.point.z(), *cell)) continue;
+    if (ray.origin.z() <= level_m || !depth.is_drop(ray.point, *cell)) continue;
     const Eigen::Vector3f place = crossing(ray, level_m);
     const auto from = grid.at(place.head<2>());
     if (!from || grid.range_m(*from) > kFarthest_m) continue;
