@@ -33,6 +33,10 @@ constexpr std::size_t kSightings = 3;
 // A place is empty when fewer than one in so many points are left: later rays miss some of them.
 constexpr std::ptrdiff_t kLeftBehind = 2;
 
+// A thing has come when one in so many of its points is where rays went through before: what is
+// left of a wall in sight has some of them at its edge.
+constexpr std::ptrdiff_t kCame = 3;
+
 constexpr std::size_t kMostTracks = 64;
 
 double seconds(std::int64_t us) { return static_cast<double>(us) * 1e-6; }
@@ -86,16 +90,19 @@ std::vector<MovingTracks::Sighting> MovingTracks::sightings(
   for (const auto& thing : things(grid, points)) {
     if (thing.size() < kFewestPoints) continue;
     Eigen::AlignedBox2f box;
-    Sighting sighting{thing[0]->utime_us, thing[0]->utime_us, 0, {}, 0.0, std::ssize(thing)};
+    Sighting sighting{thing[0]->utime_us, thing[0]->utime_us, 0, {}, 0.0, std::ssize(thing), false};
+    std::ptrdiff_t came = 0;
     std::int64_t into_us = 0;
     for (const TypedPoint* point : thing) {
       box.extend(point->place());
       sighting.first_us = std::min(sighting.first_us, point->utime_us);
       sighting.last_us = std::max(sighting.last_us, point->utime_us);
       into_us += point->utime_us - thing[0]->utime_us;
+      came += point->came;
     }
     sighting.radius_m = static_cast<double>(box.sizes().maxCoeff()) / 2.0;
     if (sighting.radius_m > kLargest_m || sighting.last_us > newest_us) continue;
+    sighting.came = kCame * came >= sighting.points;
     sighting.utime_us = thing[0]->utime_us + into_us / static_cast<std::int64_t>(thing.size());
     const Eigen::Vector3d middle(box.center().x(), box.center().y(), 0.0);
     sighting.position = (T_odom_base * middle).head<2>();
@@ -142,6 +149,7 @@ void MovingTracks::update(const Pose3& T_odom_base, std::int64_t utime_us, const
     const Sighting& first = track.sightings.front();
     const double way_m = (track.last().position - first.position).norm();
     const Eigen::Vector3d was(first.position.x(), first.position.y(), 0.0);
+    track.came |= std::ranges::any_of(track.sightings, &Sighting::came);
     track.moves = track.sightings.size() >= kSightings &&
                   track.velocity_mps().norm() > kSlowest_mps &&
                   way_m > std::max(kLeastWay_m, 2.0 * first.radius_m) &&
@@ -155,8 +163,9 @@ std::vector<MovingObstacle> MovingTracks::moving(const Pose3& T_odom_base,
   const Pose3 T_base_odom = T_odom_base.inverse();
   std::vector<MovingObstacle> moving;
   for (const Track& track : tracks_) {
-    if (!track.moves) continue;
-    const Eigen::Vector2d velocity = track.velocity_mps();
+    if (!track.moves && !track.came) continue;
+    const Eigen::Vector2d velocity =
+        track.moves ? track.velocity_mps() : Eigen::Vector2d(Eigen::Vector2d::Zero());
     const Eigen::Vector2d now =
         track.last().position + seconds(utime_us - track.last().utime_us) * velocity;
     const Eigen::Vector3d position = T_base_odom * Eigen::Vector3d(now.x(), now.y(), 0.0);

@@ -11,8 +11,9 @@
 
 namespace voxlist::planning {
 
-/// Follows things no larger than a person from sweep to sweep, and tells which of them move. One
-/// does that was seen three times, is farther from where it was than it is wide, and has left that
+/// Follows things no larger than a person from sweep to sweep, and tells which of them move, and
+/// which have come to where nothing was: they may go on at any time. One moves
+/// that was seen three times, is farther from where it was than it is wide, and has left that
 /// place empty: so the piece of a wall that comes into sight beside the last one does not.
 class MovingTracks {
  public:
@@ -32,11 +33,12 @@ class MovingTracks {
     Eigen::Vector2d position;                  // odom
     double radius_m;
     std::ptrdiff_t points;
+    bool came;
   };
 
   struct Track {
     std::vector<Sighting> sightings;  // oldest first
-    bool moves = false;
+    bool moves = false, came = false;
 
     const Sighting& last() const { return sightings.back(); }
     Eigen::Vector2d velocity_mps() const;

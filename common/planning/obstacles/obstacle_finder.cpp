@@ -67,6 +67,7 @@ void ObstacleFinder::add_odometry(const StampedPose2& T_odom_base, const Tilt& t
 void ObstacleFinder::clear() {
   window_.clear();
   memory_.clear();
+  void_.clear();
   tracks_.clear();
   ground_ = {};
 }
@@ -88,8 +89,10 @@ ObstacleScan ObstacleFinder::take(const Cloud& cloud_base, Part part) {
   newest_us_ = cloud_base.utime_us;
   move_to(pose_at(cloud_base.utime_us), cloud_base);
   const std::vector<Ray> news = window_.add(cloud_base);
+  window_.mark_came(void_.came(T_odom_base_, newest_us_, news));
+  void_.learn(T_odom_base_, newest_us_, news);
   forget_if_tilted(news);
-  memory_.look_again(T_odom_base_, news);
+  window_.forget_gone(memory_.look_again(T_odom_base_, news), grid_.cell_m(), newest_us_);
   spacing_.add(cloud_base);
   return describe(cloud_base.utime_us, part);
 }

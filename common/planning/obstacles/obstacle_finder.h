@@ -5,6 +5,7 @@
 #include "voxlist/geometry/odometry_buffer.h"
 #include "voxlist/planning/obstacles/moving_tracks.h"
 #include "voxlist/planning/obstacles/obstacle_memory.h"
+#include "voxlist/planning/obstacles/seen_void.h"
 #include "voxlist/planning/rays/beam_spacing.h"
 
 namespace voxlist::planning {
@@ -47,6 +48,7 @@ class ObstacleFinder {
   BeamSpacing spacing_;
   RayWindow window_;
   ObstacleMemory memory_;
+  SeenVoid void_;
   MovingTracks tracks_;
   bool has_odometry_ = false;
   Pose3 T_odom_base_ = Pose3::Identity();

@@ -1,5 +1,6 @@
 #include "voxlist/planning/obstacles/obstacle_memory.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -11,6 +12,9 @@ namespace {
 // Floor nearer than this (m) is remembered: what the robot hides, and what makes the edge of a drop
 // sharper than single sweeps do.
 constexpr float kFloorWithin_m = 2.0F;
+
+// Rays are held against what stood at heights so far apart (m): as far as they refute a point.
+constexpr float kHeights_m = 0.12F;
 
 constexpr int kDrop = static_cast<int>(ObstacleType::kNegative);
 
@@ -35,7 +39,8 @@ void ObstacleMemory::forget_tilted(std::int64_t since_us) {
   });
 }
 
-void ObstacleMemory::look_again(const Pose3& T_odom_base, const std::vector<Ray>& news) {
+std::vector<Eigen::Vector3f> ObstacleMemory::look_again(const Pose3& T_odom_base,
+                                                        const std::vector<Ray>& news) {
   const Eigen::Isometry3f T_base_odom = T_odom_base.inverse().cast<float>();
   std::vector<Ray> standing;
   std::vector<std::map<Key, Entry>::iterator> of;
@@ -43,15 +48,22 @@ void ObstacleMemory::look_again(const Pose3& T_odom_base, const std::vector<Ray>
     const int type = std::get<2>(entry->first);
     if (type == kFloor || type == kDrop) continue;
     // What is in sight and was not met again is gone, however thin it is.
-    standing.push_back({T_base_odom * entry->second.point, Eigen::Vector3f::Zero(), 0, true, false,
-                        entry->second.passed});
-    of.push_back(entry);
+    Eigen::Vector3f point = entry->second.point;
+    for (point.z() = entry->second.low_m; point.z() <= entry->second.high_m;
+         point.z() += kHeights_m) {
+      standing.push_back({T_base_odom * point, Eigen::Vector3f::Zero(), 0, true, false, 0});
+      of.push_back(entry);
+    }
   }
   count_passes(standing, news);
-  for (std::size_t i = 0; i < of.size(); ++i) {
-    of[i]->second.passed = standing[i].passed;
-    if (is_refuted(standing[i])) entries_.erase(of[i]);
-  }
+  for (std::size_t i = 0; i < of.size(); ++i) of[i]->second.passed += standing[i].passed;
+  std::vector<Eigen::Vector3f> gone;
+  std::erase_if(entries_, [&](const auto& entry) {
+    const bool is_gone = is_refuted({{}, {}, 0, true, false, entry.second.passed});
+    if (is_gone) gone.push_back(T_base_odom * entry.second.point);
+    return is_gone;
+  });
+  return gone;
 }
 
 std::vector<float> ObstacleMemory::floor_heights(const Pose3& T_odom_base,
@@ -102,7 +114,11 @@ void ObstacleMemory::note(const Eigen::Vector3f& point_odom, int type, float cel
                           std::int64_t utime_us) {
   const Key key{static_cast<int>(std::floor(point_odom.x() / cell_m)),
                 static_cast<int>(std::floor(point_odom.y() / cell_m)), type};
-  entries_[key] = {point_odom, utime_us, 0};
+  const float z_m = point_odom.z();
+  const auto [entry, is_new] = entries_.try_emplace(key, Entry{point_odom, utime_us, z_m, z_m});
+  if (is_new) return;
+  Entry& known = entry->second;
+  known = {point_odom, utime_us, std::min(known.low_m, z_m), std::max(known.high_m, z_m)};
 }
 
 }  // namespace voxlist::planning

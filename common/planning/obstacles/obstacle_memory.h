@@ -17,8 +17,10 @@ class ObstacleMemory {
   /// Forgets what was last seen before `oldest_us`.
   void forget_before(std::int64_t oldest_us);
 
-  /// Counts new rays, in base, that went through where something stood.
-  void look_again(const Pose3& T_odom_base, const std::vector<Ray>& news);
+  /// Counts new rays, in base, that went through where something stood, at any height between those
+  /// at which it was met: who went away left at all of them, and near the robot few rays go low.
+  /// Returns the places, in base, of what is gone now.
+  std::vector<Eigen::Vector3f> look_again(const Pose3& T_odom_base, const std::vector<Ray>& news);
 
   /// Height of remembered floor in each cell, in base; NaN: none.
   std::vector<float> floor_heights(const Pose3& T_odom_base, const LocalGrid& grid) const;
@@ -45,6 +47,7 @@ class ObstacleMemory {
   struct Entry {
     Eigen::Vector3f point;  // odom
     std::int64_t utime_us;
+    float low_m, high_m;  // heights at which it was met, odom
     int passed = 0;
   };
 

@@ -18,7 +18,8 @@ struct ObstacleCell {
   ObstacleType type;
 };
 
-/// Something that moves. Base frame; the velocity is over ground, on base's axes.
+/// Something that moves, or has come to where nothing was and stands (velocity 0). Base frame; the
+/// velocity is over ground, on base's axes.
 struct MovingObstacle {
   Eigen::Vector2f position;
   Eigen::Vector2f velocity_mps;

@@ -91,7 +91,7 @@ std::vector<TypedPoint> find_standing(const LocalGrid& grid, const std::vector<R
     if (may_be_ramp) continue;
     const bool hangs = all.lowest_m >= kHangs_m && has_floor_behind(place, grid, ground);
     standing.push_back({ray->point, hangs ? ObstacleType::kOverhang : ObstacleType::kObstacle, cell,
-                        ray->utime_us});
+                        ray->utime_us, ray->came});
   }
   return standing;
 }

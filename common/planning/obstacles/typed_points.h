@@ -14,6 +14,7 @@ struct TypedPoint {
   ObstacleType type;
   std::size_t cell;
   std::int64_t utime_us;  ///< when it was seen
+  bool came = false;      ///< something that was not there before
 
   Eigen::Vector2f place() const { return point.head<2>(); }
 };

@@ -1,5 +1,7 @@
 #include "voxlist/planning/rays/ray_window.h"
 
+#include <algorithm>
+
 #include "voxlist/planning/rays/passed_through.h"
 #include "voxlist/planning/rays/single_echoes.h"
 
@@ -25,6 +27,21 @@ std::vector<Ray> RayWindow::add(const Cloud& cloud_base) {
   count_passes(rays_, news);
   rays_.insert(rays_.end(), news.begin(), news.end());
   return news;
+}
+
+void RayWindow::mark_came(const std::vector<bool>& came) {
+  for (std::size_t i = 0; i < came.size(); ++i)
+    rays_[rays_.size() - came.size() + i].came = came[i];
+}
+
+void RayWindow::forget_gone(const std::vector<Eigen::Vector3f>& places, float radius_m,
+                            std::int64_t before_us) {
+  std::erase_if(rays_, [&](const Ray& ray) {
+    return ray.is_wide && ray.utime_us < before_us &&
+           std::ranges::any_of(places, [&](const Eigen::Vector3f& place) {
+             return (ray.point - place).head<2>().squaredNorm() < radius_m * radius_m;
+           });
+  });
 }
 
 }  // namespace voxlist::planning

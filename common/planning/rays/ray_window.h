@@ -18,7 +18,8 @@ struct Ray {
   /// Its range is between those of both neighbours on their way: half of the beam met one thing and
   /// half the other, and nothing is there.
   bool is_mixed;
-  int passed;  ///< later rays that went through where it ended
+  int passed;         ///< later rays that went through where it ended
+  bool came = false;  ///< it ended where rays went through before
 };
 
 /// The rays of the last clouds. They are kept in odom, and given in base.
@@ -31,8 +32,16 @@ class RayWindow {
   /// Adds a cloud's rays, in base as of the last advance(), and returns them.
   std::vector<Ray> add(const Cloud& cloud_base);
 
+  /// Says of the rays that were added last which met something that has come.
+  void mark_came(const std::vector<bool>& came);
+
   /// They are in base as of the last advance(), oldest first.
   const std::vector<Ray>& rays() const { return rays_; }
+
+  /// Forgets rays of before a time that ended on wide things within `radius_m` of one of these
+  /// places, as seen from above: they are gone.
+  void forget_gone(const std::vector<Eigen::Vector3f>& places, float radius_m,
+                   std::int64_t before_us);
 
   void forget_all_but(std::vector<Ray> news) { rays_ = std::move(news); }
   void clear() { rays_.clear(); }
