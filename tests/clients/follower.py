@@ -1,17 +1,16 @@
 #!/usr/bin/env python3
 """A robot that follows a way and stops in time, from POSE and OBSTACLES alone, as follower.h does in C++.
-
-Usage: follower.py LOG X Y [X Y...]: what it would have done with a recording; points of the way in map.
-"""
+Usage: follower.py LOG X Y [X Y...]: what it would have done with a recording; points of the way in map."""
 import math
 import sys
 
 from voxlist import obstacles_t, pose_t
 from voxlist.event_log import read_events
 
-RADIUS_M, MARGIN_M, BESIDE_M, TOP_SPEED_MPS, SLOWEST_MPS = 0.3, 0.1, 0.05, 1.0, 0.02
-BRAKES_MPS2, REACTION_S, THERE_M, ASIDE_RAD, FORESIGHT_S = 1.0, 0.2, 0.2, 0.5, 1.0
-OLDEST_US = 300_000
+# The robot, and its scanner's sweep; someone may step in as near as that. As in common/planning/stopping.
+RADIUS_M, MARGIN_M, MARGIN_S, TOP_SPEED_MPS, BRAKES_MPS2, REACTION_S = 0.3, 0.03, 0.1, 1.0, 1.0, 0.15
+SWEEP_S, STEPS_IN_M, WALKS_MPS, STEP_S, NEARER_M = 1.0, 1.75, 1.2, 0.05, 0.002
+SLOWEST_MPS, THERE_M, ASIDE_RAD, OLDEST_US = 0.02, 0.2, 0.5, 300_000
 
 
 class Follower:
@@ -21,26 +20,26 @@ class Follower:
 
     def command(self, now_us):
         """Speed (m/s), turn (rad/s), and why it does not drive."""
+        o = self.obstacles
         if abs(now_us - self.pose.utime) > OLDEST_US:
             return 0.0, 0.0, "POSE is old"
-        if abs(now_us - self.obstacles.utime) > OLDEST_US:
+        if abs(now_us - o.utime) > OLDEST_US:
             return 0.0, 0.0, "OBSTACLES are old"
-        if self.obstacles.blind:
-            return 0.0, 0.0, "blind: " + self.obstacles.blind
-        if not self.obstacles.ground_seen_to_m:
+        if o.blind:
+            return 0.0, 0.0, "blind: " + o.blind
+        if not o.ground_seen_to_m:
             return 0.0, 0.0, "nothing was seen"
         while self.way and math.hypot(*self.ahead()) < THERE_M:
             self.way.pop(0)
         if not self.way:
             return 0.0, 0.0, "it is there"
-        x, y = self.ahead()
-        aside = math.atan2(y, x)
+        aside = math.atan2(*reversed(self.ahead()))
         turn = max(-1.0, min(1.0, 2.0 * aside))
         if abs(aside) > ASIDE_RAD:
             return 0.0, turn, ""
-        late_s = REACTION_S + 1e-6 * (now_us - self.obstacles.utime)
-        speed = min(safe_speed_mps(self.gap_m(), late_s), TOP_SPEED_MPS * (1.0 - abs(aside) / ASIDE_RAD))
-        return (speed, turn, "") if speed >= SLOWEST_MPS else (0.0, 0.0, "the way is not free")
+        late_s = REACTION_S + 1e-6 * (now_us - o.utime)
+        speed = min(safe_speed_mps(o, turn, late_s), TOP_SPEED_MPS * (1.0 - abs(aside) / ASIDE_RAD))
+        return (speed, turn, "") if speed >= SLOWEST_MPS else (0.0, turn, "the way is not free")
 
     def ahead(self):
         """The next point of the way, as the robot sees it."""
@@ -48,31 +47,45 @@ class Follower:
         x, y = self.way[0][0] - self.pose.pos[0], self.way[0][1] - self.pose.pos[1]
         return math.cos(yaw) * x + math.sin(yaw) * y, math.cos(yaw) * y - math.sin(yaw) * x
 
-    def gap_m(self):
-        """How far it can go straight on: up to what stands, hangs or gapes, and no farther than the floor was seen."""
-        o = self.obstacles
-        blocks = []
-        for i, reach_m in enumerate(map(min, o.ground_seen_to_m, *o.nearest_m)):
-            bearing = o.rad0 + o.radstep * i
-            # Infinity times a cosine of 0 would be no number.
-            reach_m = min(reach_m, 1e9)
-            blocks.append((reach_m * math.cos(bearing), reach_m * math.sin(bearing), 0.0))
-        for m in o.moving:
-            x, y = (p + FORESIGHT_S * v for p, v in zip(m.position, m.velocity))
-            blocks.append((x, y, m.radius_m))
-        gaps = [x - radius_m for x, y, radius_m in blocks if x > 0.0 and abs(y) < RADIUS_M + BESIDE_M + radius_m]
-        return max(0.0, min(gaps, default=math.inf) - RADIUS_M - MARGIN_M)
 
+def safe_speed_mps(o, turn, late_s):
+    """The speed from which it stands before all that can be in its way by then, as safe_speed.h tells."""
+    things = [(m * math.cos(o.radstep * i), m * math.sin(o.radstep * i), 0.0, 0.0, 0.0, 0.0)
+              for row in o.nearest_m for i, m in enumerate(row) if m < 2.5]
+    things += [(*m.position, *m.velocity, m.radius_m, WALKS_MPS) for m in o.moving]
 
-def safe_speed_mps(gap_m, late_s):
-    """From this speed it stands before the gap is used up, though it notices late."""
-    lost_mps = BRAKES_MPS2 * late_s
-    return math.sqrt(lost_mps * lost_mps + 2.0 * BRAKES_MPS2 * gap_m) - lost_mps
+    def is_free(speed):
+        t_s, x, y, heading, at = STEP_S, 0.0, 0.0, 0.0, speed
+        while at > 0.0:
+            before, at = at, max(0.0, at - BRAKES_MPS2 * STEP_S) if t_s > late_s else at
+            heading += turn * STEP_S
+            step = (before + at) / 2.0 * STEP_S
+            x, y = x + step * math.cos(heading), y + step * math.sin(heading)
+            for aside in (-0.7, 0.0, 0.7):
+                edge = x + RADIUS_M * math.cos(heading + aside), y + RADIUS_M * math.sin(heading + aside)
+                sector = round(math.atan2(edge[1], edge[0]) / o.radstep) % o.n_bearings
+                if math.hypot(*edge) > max(RADIUS_M + NEARER_M, o.ground_seen_to_m[sector]):
+                    return False
+            for px, py, vx, vy, radius, strays in things:
+                away = math.hypot(px + t_s * vx - x, py + t_s * vy - y)
+                keep = RADIUS_M + MARGIN_M + MARGIN_S * speed + radius + t_s * strays
+                if away < keep and away < math.hypot(px, py) - NEARER_M:
+                    return False
+            t_s += STEP_S
+        return True
+    lost = BRAKES_MPS2 * (SWEEP_S + REACTION_S)
+    most = min(TOP_SPEED_MPS, math.sqrt(lost * lost + 2.0 * BRAKES_MPS2 * (STEPS_IN_M - RADIUS_M - MARGIN_M)) - lost)
+    if is_free(most):
+        return most
+    free = 0.0
+    for _ in range(5):
+        between = (free + most) / 2.0
+        free, most = (between, most) if is_free(between) else (free, between)
+    return free
 
 
 def main(log, *numbers):
-    numbers = list(map(float, numbers))
-    follower = Follower(zip(numbers[::2], numbers[1::2]))
+    follower = Follower(zip(map(float, numbers[::2]), map(float, numbers[1::2])))
     for event in read_events(log):
         if event.channel == "OBSTACLES":
             follower.obstacles = obstacles_t.decode(event.data)
@@ -83,6 +96,4 @@ def main(log, *numbers):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) < 4:
-        sys.exit(__doc__)
-    main(*sys.argv[1:])
+    sys.exit(__doc__ if len(sys.argv) < 4 else main(*sys.argv[1:]))

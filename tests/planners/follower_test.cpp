@@ -92,7 +92,7 @@ std::vector<std::string> commands_to(const obstacles_t& obstacles, const std::st
 }
 
 TEST(Follower, DrivesWhereTheFloorWasSeenAndNothingStands) {
-  EXPECT_THAT(commands_to(clear()), ElementsAre("drive 1.00 m/s, turn 0.00 rad/s"));
+  EXPECT_THAT(commands_to(clear()), ElementsAre("drive 0.89 m/s, turn 0.00 rad/s"));
 }
 
 TEST(Follower, TurnsTowardsItsWayWhereItStands) {
@@ -106,26 +106,40 @@ TEST(Follower, StandsWhereItsWayEnds) {
 TEST(Follower, StopsBeforeWhateverStandsHangsOrGapes) {
   for (const std::size_t type : {0U, 1U, 2U}) {
     obstacles_t near = clear(), farther = clear(), beside = clear();
-    near.nearest_m[type][0] = 0.39F;
+    near.nearest_m[type][0] = 0.33F;
     farther.nearest_m[type][0] = 0.9F;
-    beside.nearest_m[type][kBearings / 4] = 0.39F;
+    beside.nearest_m[type][kBearings / 4] = 0.33F;
     EXPECT_THAT(commands_to(near), ElementsAre("stop: the way is not free")) << type;
-    EXPECT_THAT(commands_to(farther), ElementsAre("drive 0.82 m/s, turn 0.00 rad/s"));
-    EXPECT_THAT(commands_to(beside), ElementsAre("drive 1.00 m/s, turn 0.00 rad/s"));
+    EXPECT_THAT(commands_to(farther), ElementsAre("drive 0.83 m/s, turn 0.00 rad/s"));
+    EXPECT_THAT(commands_to(beside), ElementsAre("drive 0.89 m/s, turn 0.00 rad/s"));
   }
 }
 
 TEST(Follower, GoesNoFartherThanTheFloorWasSeen) {
   obstacles_t unseen = clear();
-  unseen.ground_seen_to_m.assign(kBearings, 0.35F);
+  unseen.ground_seen_to_m.assign(kBearings, 0.29F);
   EXPECT_THAT(commands_to(unseen), ElementsAre("stop: the way is not free"));
+}
+
+TEST(Follower, TurnsOnTheSpotWhereItMayNotDrive) {
+  obstacles_t unseen = clear();
+  unseen.ground_seen_to_m.assign(kBearings, 0.F);
+  EXPECT_THAT(commands_to(unseen, "0 5"), ElementsAre("drive 0.00 m/s, turn 1.00 rad/s"));
+}
+
+TEST(Follower, WaitsForOneWhoStandsBesideItsWayAndMayGoOn) {
+  obstacles_t beside = clear();
+  beside.n_moving = 1;
+  beside.moving.resize(1);
+  beside.moving[0] = {{1.F, 1.F}, {0.F, 0.F}, 0.25F};
+  EXPECT_THAT(commands_to(beside), ElementsAre("drive 0.39 m/s, turn 0.00 rad/s"));
 }
 
 TEST(Follower, StopsForOneWhoIsAboutToStepBeforeIt) {
   obstacles_t crossed = clear();
   crossed.n_moving = 1;
   crossed.moving.resize(1);
-  crossed.moving[0] = {{0.6F, 1.2F}, {0.F, -1.2F}, 0.25F};
+  crossed.moving[0] = {{0.5F, 0.7F}, {0.F, -1.2F}, 0.25F};
   EXPECT_THAT(commands_to(crossed), ElementsAre("stop: the way is not free"));
 }
 

@@ -47,24 +47,43 @@ std::vector<Follower::Point> points_of(const std::vector<Eigen::Vector2d>& way) 
   return points;
 }
 
-// Somebody who crosses the way of a robot that was at `robot` then, and stands before it a while.
+// Somebody who crosses the way of a robot that was at `robot` then, stands before it a while, and
+// goes on to where the building ends it.
 class Passer {
  public:
-  Passer(const Pose2& robot, double t_s, double side) : robot_(robot), from_s_(t_s), side_(side) {}
+  // Nobody comes out of a wall, or steps in where the robot could not see it.
+  static std::optional<Passer> before(const Pose2& robot, double t_s, double side,
+                                      const simulation::Building& building) {
+    const auto room_m = [&](double ahead_m, double aside_m) {
+      const Pose2 place = robot * Pose2{ahead_m, aside_m, 0.0};
+      return building.clearance_m({place.x_m, place.y_m}, kLow_m, kPerson_m);
+    };
+    for (double ahead_m = 0.0; ahead_m < kAhead_m; ahead_m += kStep_m)
+      if (room_m(ahead_m, 0.0) < kStep_m) return std::nullopt;
+    double to_m = kBeside_m;
+    while (to_m > -kLeaves_m && room_m(kAhead_m, side * to_m) > kNeeds_m) to_m -= kStep_m;
+    if (to_m > -kBeside_m) return std::nullopt;
+    return Passer(robot, t_s, side, to_m + kStep_m);
+  }
 
   Pose2 at(double t_s) const {
     const double walked_s = t_s - from_s_, to_way_s = kBeside_m / kWalks_mps;
     const double along_s =
         std::min(walked_s, to_way_s) + std::max(0.0, walked_s - to_way_s - kStands_s);
-    return robot_ * Pose2{kAhead_m, side_ * (kBeside_m - kWalks_mps * along_s),
+    return robot_ * Pose2{kAhead_m, side_ * std::max(to_m_, kBeside_m - kWalks_mps * along_s),
                           -side_ * std::numbers::pi / 2.0};
   }
 
   bool is_gone(double t_s) const { return t_s > from_s_ + kStands_s + 4.0; }
 
  private:
+  static constexpr double kStep_m = 0.1, kPerson_m = 1.75, kNeeds_m = 0.25, kLeaves_m = 5.0;
+
+  Passer(const Pose2& robot, double t_s, double side, double to_m)
+      : robot_(robot), from_s_(t_s), side_(side), to_m_(to_m) {}
+
   Pose2 robot_;
-  double from_s_, side_;
+  double from_s_, side_, to_m_;
 };
 
 double gap_to(const simulation::Building& building, const std::vector<Pose2>& people,
@@ -93,7 +112,7 @@ class Drive {
         random_(4717, static_cast<std::uint64_t>(config.seed)),
         building_(simulation::make_building({.seed = config.seed})),
         way_(random_way(building_, random_)),
-        follower_(points_of(way_)),
+        follower_(points_of(way_), config.laser == FollowersLaser::kMirror ? 1.0 : 0.1),
         eyes_(config.laser, static_cast<std::uint64_t>(config.seed)) {
     const Eigen::Vector2d ahead = way_[4] - way_[0];
     pose_ = {way_[0].x(), way_[0].y(), std::atan2(ahead.y(), ahead.x())};
@@ -126,9 +145,12 @@ class Drive {
 
   std::vector<Pose2> people_now() {
     if (result_.way_m >= next_passer_m_) {
-      passer_.emplace(pose_, t_s_, random_.uniform(-1.0, 1.0) < 0.0 ? -1.0 : 1.0);
-      ++result_.stepped_in;
-      next_passer_m_ += config_.step_in_every_m;
+      const double side = random_.uniform(-1.0, 1.0) < 0.0 ? -1.0 : 1.0;
+      if (const auto passer = Passer::before(pose_, t_s_, side, building_)) {
+        passer_ = passer;
+        ++result_.stepped_in;
+        next_passer_m_ += config_.step_in_every_m;
+      }
     }
     if (passer_ && passer_->is_gone(t_s_)) passer_.reset();
     return passer_ ? std::vector<Pose2>{passer_->at(t_s_)} : std::vector<Pose2>{};
