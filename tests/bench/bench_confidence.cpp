@@ -150,8 +150,12 @@ class Bench {
     if (kind.foreign) return;
     for (int i = 0; i < drives_; ++i) {
       const auto drive_of = [&](int more) {
-        return drive_through(floor, building, static_cast<DriveKind>(i % 3), kind.people,
-                             static_cast<std::uint64_t>(1000 * seed + 500 + 2 * i + more));
+        const auto number = static_cast<std::uint64_t>(1000 * seed + 500 + 2 * i + more);
+        auto drive =
+            drive_through(floor, building, static_cast<DriveKind>(i % 3), kind.people, number);
+        simulation::Random random(4714, number);
+        for (DriveStep& step : drive) step.scan = as_seen(kind, std::move(step.scan), random);
+        return drive;
       };
       const auto before = drive_of(0), after = drive_of(1);
       localiser.forget();
