@@ -144,7 +144,9 @@ class Localiser {
   RefinedTilt refined_tilt(const MatchPoints& points, const Pose2& place, const Tilt& start);
   RefinedTilt tilt_by_modes(const MatchPoints& points, const KnownTilt& known,
                             const Localisation& found);
-  Tilt expected_tilt(const MatchPoints& points, const KnownTilt& known, const Pose2& expected);
+  RefinedTilt best_guess(const MatchPoints& points, const KnownTilt& known, const Pose2& place);
+  Tilt expected_tilt(const Cloud& cloud, const MatchPoints& points, const KnownTilt& known,
+                     const Pose2& expected, const Locate& locate);
   Localisation located_from(const Cloud& cloud, const MatchPoints& points, const Tilt& first,
                             const Locate& locate);
   std::vector<Tilt> searched_tilts(const Cloud& cloud, const MatchPoints& points,

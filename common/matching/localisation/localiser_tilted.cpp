@@ -37,6 +37,8 @@ constexpr double kThick_m = 0.06, kMost = 0.5;
 constexpr double kHeightUnknown = 0.5;
 // Points that choose between guesses.
 constexpr std::size_t kFewPoints = 400;
+// Guesses are told apart where at least so much of a cloud lies on surfaces: less does anywhere.
+constexpr double kTells = 0.3;
 
 bool are_near(const Tilt& a, const Tilt& b, double off_rad, double off_m) {
   return std::abs(a.z_m - b.z_m) < off_m && std::abs(a.roll_rad - b.roll_rad) < off_rad &&
@@ -89,7 +91,7 @@ Localisation Localiser::locate_tilted(const Cloud& cloud, const KnownTilt& known
   if (expected) {
     Belief before = belief();
     Localisation result =
-        located_from(cloud, points, expected_tilt(points, known, *expected), locate);
+        located_from(cloud, points, expected_tilt(cloud, points, known, *expected, locate), locate);
     if (!result.searched_whole_map) {
       if (jumps(result)) {
         believe(std::move(before));
@@ -209,17 +211,32 @@ Localiser::RefinedTilt Localiser::refined_tilt(const MatchPoints& points, const 
   return {is_near ? now : start, is_near ? refined.inlier_ratio : 0.0, is_near};
 }
 
-// Where the robot is expected, the map's surfaces choose among what is known.
-Tilt Localiser::expected_tilt(const MatchPoints& points, const KnownTilt& known,
-                              const Pose2& expected) {
-  const std::vector<Tilt> guesses = levelling_.guesses(known, expected);
+// Where the robot is expected, the map's surfaces choose among what is known. Where it turns out
+// that it is not there, as when it ends a turn and no odometry says so, walls tell its place first.
+Tilt Localiser::expected_tilt(const Cloud& cloud, const MatchPoints& points, const KnownTilt& known,
+                              const Pose2& expected, const Locate& locate) {
+  const RefinedTilt best = best_guess(points, known, expected);
+  if (best.inlier_ratio >= kTells) return best.tilt;
+  const Tilt last = levelling_.guesses(known, expected).front();
+  Belief before = belief();
+  const Localisation found = locate_at(cloud, last, locate);
+  believe(std::move(before));
+  return found.modes.empty() ? best.tilt
+                             : best_guess(points, known, found.modes.front().T_map_base).tilt;
+}
+
+Localiser::RefinedTilt Localiser::best_guess(const MatchPoints& points, const KnownTilt& known,
+                                             const Pose2& place) {
+  const std::vector<Tilt> guesses = levelling_.guesses(known, place);
   const MatchPoints few = some_of(points, kFewPoints);
-  RefinedTilt best{guesses.front()};
+  const Tilt& last = guesses.front();
+  RefinedTilt best{last};
   for (const Tilt& guess : guesses) {
-    const RefinedTilt now = refined_tilt(few, expected, guess);
-    if (now.inlier_ratio > best.inlier_ratio && levelling_.reaches(expected, now.tilt)) best = now;
+    if (&guess != &last && are_near(guess, last, kSameTilt_rad, kSameTilt_m)) continue;
+    const RefinedTilt now = refined_tilt(few, place, guess);
+    if (now.inlier_ratio > best.inlier_ratio && levelling_.reaches(place, now.tilt)) best = now;
   }
-  return best.tilt;
+  return best;
 }
 
 // Where nothing is expected, the cloud is searched for at each height that it may have; those come
