@@ -19,5 +19,6 @@ if ! cmp -s "$node_tests/package-lock.json" "$modules/package-lock.json" || [[ !
     skip "npm cannot fetch the readers: $(head -n 1 "$modules/npm.log")"
   }
 fi
-cp "$node_tests"/*.js "$modules"
+# Only what has changed: another test may be reading them.
+cp -u "$node_tests"/*.js "$modules"
 exec 9>&-
