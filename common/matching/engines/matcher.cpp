@@ -53,8 +53,10 @@ class SearchMatcher : public Matcher {
   std::optional<MatchMode> better_along(const PreparedScan& scan, const MatchMode& mode,
                                         const UncertainPose& prior,
                                         const Eigen::Vector2d& slip) override {
-    const auto place = matching::better_along(evidence(), surfels_, scan.few_rays(), mode.pose,
-                                              mode.evidence, slip);
+    // All rays: a door or two are told by few of them.
+    const auto& rays = scan.even_rays();
+    const auto place = matching::better_along(evidence(), surfels_, rays, mode.pose,
+                                              evidence_on_surfaces(mode.pose, rays), slip);
     if (!place || holds_along(scan, mode, prior, slip)) return std::nullopt;
     const Eigen::Matrix3d covariance = with_sigma(prior.covariance, unit(slip), place->sigma_m);
     std::vector<MatchMode> better =
