@@ -53,6 +53,7 @@ class PoseTrack {
 
  private:
   TrackedPose moved(std::int64_t now_us, const std::optional<Pose2>& T_odom_now) const;
+  bool is_suspect(const UncertainPose& predicted, const ReachMatch& reach) const;
   void doubt_wheels(Matcher& matcher, const PreparedScan& scan, const UncertainPose& predicted,
                     ReachMatch& reach);
   bool let_slip(Matcher& matcher, const PreparedScan& scan, const UncertainPose& predicted,
@@ -68,6 +69,8 @@ class PoseTrack {
   MotionGuess guess_;
   MatchScatter scatter_;
   double in_reach_ = 0.995;
+  // Whether the last scan did not say for sure that the robot is in reach.
+  bool doubted_ = false;
   // How far the robot has driven since surfaces held its pose along its way (m).
   double unheld_m_ = 0.0;
   // Whether the last match says that the wheels slipped.

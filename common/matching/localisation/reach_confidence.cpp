@@ -120,4 +120,8 @@ std::vector<double> rank_in_reach(const UncertainPose& predicted,
   return probability;
 }
 
+double odds_between(const MatchMode& place, const MatchMode& other) {
+  return elementary::exp(kPlacePower * (unexplained(other.support) - unexplained(place.support)));
+}
+
 }  // namespace voxlist::matching

@@ -20,4 +20,8 @@ std::vector<double> rank_in_reach(const UncertainPose& predicted,
                                   const std::optional<PoseWindow>& window, double in_reach,
                                   std::vector<MatchMode>& modes, double unseen = 0.0);
 
+/// The odds between two places by how well each explains a scan, wherever the robot was expected:
+/// above 1 where the first one explains it better.
+double odds_between(const MatchMode& place, const MatchMode& other);
+
 }  // namespace voxlist::matching

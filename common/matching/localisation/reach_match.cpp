@@ -22,6 +22,23 @@ constexpr double kInMap = 0.5;
 // stations: there the map alone decides, and with even odds 28 of 66 stations are placed.
 constexpr double kVaguest_m = 20.0;
 
+// From here on (m, rad) a place is another one: rays end elsewhere. Of 8 robots that passed for
+// being where they were expected, one had been carried 0.25 m along a corridor.
+constexpr double kOther_m = 0.15, kOther_rad = 0.05;
+// A robot that was carried is at one given place of the map with this probability. A judgement: a
+// place that explains a scan as well as the expected one, as an alike room does, is no rival of it.
+constexpr double kThere = 0.01;
+
+bool is_other(const Pose2& a, const Pose2& b) {
+  return distance_m(a, b) > kOther_m || turn_rad(a, b) > kOther_rad;
+}
+
+// Expected nowhere: the scan alone says where it was taken.
+UncertainPose expected_nowhere() {
+  constexpr double kVague = 1e6;  // m and rad
+  return {{}, kVague * kVague * Eigen::Matrix3d::Identity()};
+}
+
 // The places that a match lists, with their probabilities.
 ReachMatch ranked(Match match, const UncertainPose& predicted,
                   const std::optional<PoseWindow>& window, double in_reach, Rivals rivals) {
@@ -53,6 +70,17 @@ ReachMatch match_in_reach(Matcher& matcher, const PreparedScan& scan,
   if (beyond && result.best() >= kSureInReach)
     result = ranked(matcher.track_rivals(scan, predicted), predicted, window, in_reach, rivals);
   return result;
+}
+
+void weigh_elsewhere(Matcher& matcher, const PreparedScan& scan, double in_reach,
+                     ReachMatch& reach) {
+  const MatchMode& here = reach.match.modes.front();
+  double odds = 0.0;
+  for (const MatchMode& there : matcher.track(scan, std::nullopt, expected_nowhere()).modes)
+    if (is_other(here.pose, there.pose)) odds = std::max(odds, odds_between(there, here));
+  odds *= kThere * (1.0 - in_reach) / in_reach;
+  const double left = 1.0 / (1.0 + odds * reach.best());
+  for (double& p : reach.probabilities) p *= left;
 }
 
 }  // namespace voxlist::matching

@@ -42,4 +42,11 @@ ReachMatch match_in_reach(Matcher& matcher, const PreparedScan& scan,
                           const UncertainPose& predicted, double in_reach,
                           Rivals rivals = Rivals::kInReach);
 
+/// Asks the whole map for a place that explains a scan better than the best one in reach, and makes
+/// those in reach as much less probable. Corridors look alike: a robot that was carried from one to
+/// another may fit well enough where it was expected, and only the place where it is tells that it
+/// is not there. `in_reach`: as above. Costs a search of the whole map.
+void weigh_elsewhere(Matcher& matcher, const PreparedScan& scan, double in_reach,
+                     ReachMatch& reach);
+
 }  // namespace voxlist::matching

@@ -24,9 +24,11 @@ MatchMode place(double x_m, double support) {
 class Told : public Matcher {
  public:
   Match match(const PreparedScan&, const std::optional<PoseWindow>&) override { return found(); }
-  Match track(const PreparedScan&, const std::optional<PoseWindow>&,
+  Match track(const PreparedScan&, const std::optional<PoseWindow>& window,
               const UncertainPose&) override {
-    return found();
+    Match match = found();
+    if (!window) match.modes.insert(match.modes.end(), elsewhere.begin(), elsewhere.end());
+    return match;
   }
   Match track_rivals(const PreparedScan&, const UncertainPose&) override {
     Match match = found();
@@ -43,7 +45,7 @@ class Told : public Matcher {
   void map_changed(const ChangedBlocks&) override {}
 
   double support = 0.98;
-  std::vector<MatchMode> rivals;
+  std::vector<MatchMode> rivals, elsewhere;
 
  private:
   Match found() const {
@@ -90,6 +92,41 @@ TEST(ReachMatch, BelievesAPoorPlaceLessInTheWholeMapThanInAWindow) {
   const double in_window = sure(told, 0.5), anywhere = sure(told, 4.0);
   EXPECT_GT(in_window, kSureInReach);
   EXPECT_LT(anywhere, kSureInReach);
+}
+
+// How sure it is of a place in a window, with a look at the rest of the map.
+double sure_beside_elsewhere(Told& told) {
+  const Cloud nothing;
+  const PreparedScan scan(nothing);
+  const UncertainPose predicted{{}, Eigen::Vector3d(1e-4, 1e-4, 1e-4).asDiagonal()};
+  ReachMatch reach = match_in_reach(told, scan, predicted, 0.995);
+  weigh_elsewhere(told, scan, 0.995, reach);
+  return reach.best();
+}
+
+TEST(ReachMatch, DoubtsAPlaceWhereAnotherOneExplainsTheScanFarBetter) {
+  Told told;
+  told.support = 0.87;
+  told.elsewhere = {place(10.0, 0.996)};
+  EXPECT_LT(sure_beside_elsewhere(told), 0.5);
+}
+
+TEST(ReachMatch, BelievesAPlaceWhereAnotherOneExplainsTheScanAsWell) {
+  Told told;
+  told.support = 0.98;
+  const double alone = sure_beside_elsewhere(told);
+  EXPECT_GT(alone, kSureInReach);
+  told.elsewhere = {place(10.0, 0.98)};
+  EXPECT_GT(sure_beside_elsewhere(told), kSureInReach);
+}
+
+// The same place, found again by the search of the whole map, is no other one.
+TEST(ReachMatch, TakesNoPlaceForARivalOfItself) {
+  Told told;
+  told.support = 0.9;
+  const double alone = sure_beside_elsewhere(told);
+  told.elsewhere = {place(0.05, 0.99)};
+  EXPECT_EQ(sure_beside_elsewhere(told), alone);
 }
 
 }  // namespace
