@@ -12,11 +12,11 @@ namespace voxlist::bus {
 
 /// What of this machine decides whether messages between machines arrive.
 struct NetworkFacts {
-  /// By which packets to the address leave; nothing when there is no way.
+  /// The interface by which packets to the address leave; nothing when no route leads there.
   std::optional<NetworkInterface> interface;
   /// What the kernel gives of the receive buffer that it is asked for.
   std::int64_t receive_buffer_bytes = 0;
-  /// In which it puts fragments together; nothing where it does not tell.
+  /// The memory in which the kernel puts fragments together; nothing where it does not tell.
   std::optional<std::int64_t> fragment_room_bytes;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// For the .cpp files that encode messages: all that includes protobuf's headers.
+// Only the .cpp files that encode messages include this file, as it brings protobuf's headers.
 #include <foxglove.pb.h>
 
 #include <Eigen/Geometry>

@@ -27,7 +27,8 @@ ClosedDrive close_loops(const PoseTree& tree, std::span<const PoseEdge> drive,
   std::vector<Loop> refused = refused_loops(tree, loops);
   if (chosen.empty()) return {start, {}, std::move(refused)};
   const std::vector<PoseEdge> edges = edges_of(chosen);
-  // From far off, Geman and McClure's kernel would let go of right loops.
+  // Poses far from the answer come nearer by Cauchy's kernel first: Geman and McClure's would let
+  // go of right loops from there.
   const std::vector<Pose2> near = solve(start, drive, edges, Kernel::kCauchy);
   const std::vector<Pose2> nearer = solve(near, drive, edges, Kernel::kGemanMcClure);
   const std::vector<Loop> kept = keep_fitting(tree, nearer, chosen);

@@ -23,7 +23,7 @@ inline Eigen::Matrix3d cross(const Eigen::Vector3d& a) {
 /// A spatial pose T_a_b, and how sure it is.
 struct UncertainPose3 {
   Pose3 pose = Pose3::Identity();
-  /// Of small shifts and turns of b, in a's axes, about b's origin: m^2, m rad, rad^2.
+  /// Covariance of small shifts and turns of b, in a's axes, about b's origin: m^2, m rad, rad^2.
   Six2 covariance = Six2::Zero();
 };
 
@@ -33,8 +33,8 @@ struct SpatialEdge {
   UncertainPose3 T_from_to;
 };
 
-/// By how much (in from's axes) the poses of two keyframes, T_map_from and T_map_to, miss what is
-/// told of T_from_to.
+/// What the poses of two keyframes, T_map_from and T_map_to, differ by from the T_from_to that is
+/// told: shifts (m) and turns (rad) in from's axes.
 Six miss(const Pose3& T_from_to, const Pose3& from, const Pose3& to);
 
 /// The square of that in units of the edge's standard deviations: 6 in the mean of poses that err

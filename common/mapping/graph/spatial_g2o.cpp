@@ -17,7 +17,7 @@ Pose3 pose_of(const StoredGraph::Keyframe& keyframe) {
   return to_pose3(keyframe.T_map_keyframe, keyframe.tilt.value_or(Tilt{}));
 }
 
-// Of an edge that no surfaces told in space, what the plane says of it.
+// An edge in space; one that no surfaces told there is as the plane has it.
 UncertainPose3 told_of(const StoredGraph& graph, const PoseEdge& edge) {
   if (edge.in_space) return *edge.in_space;
   const auto tilt = [&](std::size_t i) { return graph.keyframes[i].tilt.value_or(Tilt{}); };

@@ -122,7 +122,8 @@ class SpaceLooks {
   DriveOdometry odometry_;
 };
 
-// From far off, Geman and McClure's kernel would let go of right loops.
+// Poses far from the answer come nearer by Cauchy's kernel first: Geman and McClure's would let go
+// of right loops from there.
 std::vector<Pose3> solved(const std::vector<Pose3>& start, std::span<const SpatialEdge> edges,
                           std::size_t drive) {
   const auto trusted = edges.first(drive), doubted = edges.subspan(drive);

@@ -34,7 +34,7 @@ constexpr double kWidestHint_m = 5.0;
 // the same again. Chosen by judgement: well below what a driving robot moves in the second of a
 // sweep.
 constexpr double kStanding_m = 0.05;
-// From where it stands, at least this share of a scan's points is where it was, unless it was
+// A robot that stands sees at least this share of a scan's points where they were, unless it was
 // carried: of a corridor and a room about 0.3 are. Chosen by judgement. Lower: some places pass for
 // each other; higher: a person who steps in front does for a carry, and the scan is judged alone.
 constexpr double kLeastSame = 0.6;
