@@ -31,8 +31,21 @@ class Depth {
       : grid_(grid),
         ground_(ground),
         rule_(config),
+        config_(config),
         disc_(grid.disc(kFloor_m)),
         wheels_m_(static_cast<float>(config.floor_z_m)) {}
+
+  // Whether the floor that the ray's line saw beside its end is the floor here; and where that is
+  // on one side alone, whether its end is below the wheels' plane, for beside a low box the floor
+  // is.
+  bool is_drop_in_line(const Ray& ray, std::size_t cell) const {
+    const float range_m = grid_.range_m(cell), level_m = ray.point.z() + ray.drop.below_m;
+    if (!is_below_floor(ray, config_)) return false;
+    if (!ray.drop.is_between && wheels_m_ - ray.point.z() <= rule_.most_m(0.0F, range_m))
+      return false;
+    return std::abs(ground_.height_m[cell] - level_m) <=
+           rule_.most_m(ground_.away_m[cell], range_m);
+  }
 
   // What lies in the wheels' own plane is none. Where floor is seen on both sides, the floor
   // between them is known, and a ramp explains nothing: so a hole is told from less of its far
@@ -88,6 +101,7 @@ class Depth {
   const LocalGrid& grid_;
   const LocalFloor& ground_;
   const FloorRule rule_;
+  const ObstacleConfig& config_;
   const std::vector<LocalGrid::Neighbour> disc_;
   const float wheels_m_;
 };
@@ -121,9 +135,11 @@ std::vector<TypedPoint> find_drops(const LocalGrid& grid, const std::vector<Ray>
   std::vector<TypedPoint> drops;
   for (const Ray& ray : rays) {
     const auto cell = grid.at(ray.point.head<2>());
-    if (!cell || ray.utime_us > until_us) continue;
-    const float level_m = ground.height_m[*cell];
-    if (ray.origin.z() <= level_m || !depth.is_drop(ray.point, *cell)) continue;
+    if (!cell) continue;
+    const bool in_line = depth.is_drop_in_line(ray, *cell);
+    if (!in_line && (ray.utime_us > until_us || !depth.is_drop(ray.point, *cell))) continue;
+    const float level_m = in_line ? ray.point.z() + ray.drop.below_m : ground.height_m[*cell];
+    if (ray.origin.z() <= level_m) continue;
     const Eigen::Vector3f place = crossing(ray, level_m);
     const auto from = grid.at(place.head<2>());
     if (!from || grid.range_m(*from) > kFarthest_m) continue;

@@ -51,7 +51,8 @@ class Growth {
         wheels_m_(static_cast<float>(config.floor_z_m)),
         low_m_(std::move(low_m)),
         cost_m_(grid.size(), kNone),
-        is_floor_(grid.size(), 0) {
+        is_floor_(grid.size(), 0),
+        asked_(grid.size(), grid.size()) {
     for (std::size_t cell = 0; cell < low_m_.size(); ++cell)
       if (is_plausible(low_m_[cell], grid.range_m(cell), rule_, wheels_m_))
         candidates_.push_back(cell);
@@ -94,8 +95,12 @@ class Growth {
     std::erase_if(candidates_, [&](std::size_t cell) { return is_floor_[cell] != 0; });
     for (const std::size_t cell : candidates_)
       grid_.while_around(cell, across_, [&](std::size_t other, float away_m) {
-        if (is_floor_[other] && goes_on(other, cell, away_m)) offer(cell, low_m_[other], away_m);
-        return !is_floor_[other];
+        if (!is_floor_[other]) return true;
+        // The same floor says the same again.
+        if (asked_[cell] != other && goes_on(other, cell, away_m))
+          offer(cell, low_m_[other], away_m);
+        asked_[cell] = other;
+        return false;
       });
   }
 
@@ -154,6 +159,7 @@ class Growth {
   const std::vector<float> low_m_;
   std::vector<float> cost_m_;
   std::vector<std::uint8_t> is_floor_;
+  std::vector<std::size_t> asked_;  // the floor before a strip that was asked last; size(): none
   std::vector<std::size_t> candidates_;  // not floor yet
   std::priority_queue<Offer, std::vector<Offer>, std::greater<>> offers_;
 };
@@ -203,17 +209,23 @@ FloorRule::FloorRule(const ObstacleConfig& config)
       slope_(static_cast<float>(tangent(config.max_slope_deg))),
       rocking_(2.0F * static_cast<float>(tangent(config.rocking_deg))) {}
 
-std::vector<float> lowest_points(const LocalGrid& grid, const std::vector<Ray>& rays) {
+bool is_below_floor(const Ray& ray, const ObstacleConfig& config) {
+  const float up_m = ray.point.z() - static_cast<float>(config.floor_z_m);
+  return ray.drop.below_m > 0.0F && std::abs(up_m + ray.drop.below_m) < std::abs(up_m);
+}
+
+std::vector<float> lowest_points(const LocalGrid& grid, const std::vector<Ray>& rays,
+                                 const ObstacleConfig& config) {
   std::vector<float> low_m(grid.size(), kNone);
   for (const Ray& ray : rays)
-    if (const auto cell = grid.at(ray.point.head<2>()))
+    if (const auto cell = grid.at(ray.point.head<2>()); cell && !is_below_floor(ray, config))
       low_m[*cell] = std::min(low_m[*cell], ray.point.z());
   return low_m;
 }
 
 LocalFloor find_ground(const LocalGrid& grid, const std::vector<Ray>& rays,
                        const std::vector<float>& remembered, const ObstacleConfig& config) {
-  std::vector<float> low_m = lowest_points(grid, rays);
+  std::vector<float> low_m = lowest_points(grid, rays, config);
   take_out_upright(grid, rays, low_m);
   for (std::size_t cell = 0; cell < remembered.size(); ++cell)
     if (low_m[cell] == kNone && std::isfinite(remembered[cell])) low_m[cell] = remembered[cell];

@@ -36,8 +36,13 @@ class FloorRule {
   float step_m_, slope_, rocking_;
 };
 
-/// Height of the lowest point in each cell (m); infinity: none.
-std::vector<float> lowest_points(const LocalGrid& grid, const std::vector<Ray>& rays);
+/// Whether the ray's own line saw it end below the floor: the floor beside its end is nearer to the
+/// wheels' plane than its end is. Beside a low box it is the end that is on the floor.
+bool is_below_floor(const Ray& ray, const ObstacleConfig& config);
+
+/// Height of the lowest point in each cell (m), those below the floor left out; infinity: none.
+std::vector<float> lowest_points(const LocalGrid& grid, const std::vector<Ray>& rays,
+                                 const ObstacleConfig& config);
 
 /// Finds the floor: the largest surface from the wheels on that is nowhere steeper than FloorRule
 /// allows. The cells' lowest points join it one by one, first those that differ least from one

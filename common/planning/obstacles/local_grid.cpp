@@ -13,13 +13,6 @@ LocalGrid::LocalGrid(double half_m, double cell_m)
   for (std::size_t cell = 0; cell < size(); ++cell) ranges_m_[cell] = centre(cell).norm();
 }
 
-std::optional<std::size_t> LocalGrid::at(const Eigen::Vector2f& place) const {
-  const int column = static_cast<int>(std::floor(place.x() / cell_m_)) + half_;
-  const int row = static_cast<int>(std::floor(place.y() / cell_m_)) + half_;
-  if (!is_inside(column, row)) return std::nullopt;
-  return index(column, row);
-}
-
 Eigen::Vector2f LocalGrid::centre(std::size_t cell) const {
   const int column = static_cast<int>(cell) / side_, row = static_cast<int>(cell) % side_;
   return {(static_cast<float>(column - half_) + 0.5F) * cell_m_,

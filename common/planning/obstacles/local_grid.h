@@ -26,7 +26,12 @@ class LocalGrid {
   float cell_m() const { return cell_m_; }
 
   /// The cell at a place; nothing outside the grid.
-  std::optional<std::size_t> at(const Eigen::Vector2f& place) const;
+  std::optional<std::size_t> at(const Eigen::Vector2f& place) const {
+    const int column = floor_of(place.x() / cell_m_) + half_;
+    const int row = floor_of(place.y() / cell_m_) + half_;
+    if (!is_inside(column, row)) return std::nullopt;
+    return index(column, row);
+  }
 
   Eigen::Vector2f centre(std::size_t cell) const;
 
@@ -58,6 +63,15 @@ class LocalGrid {
   }
 
  private:
+  // std::floor is a call on processors of 2003, which is what Debian compiles for. What no cell
+  // counts to is outside.
+  static int floor_of(float value) {
+    constexpr float kOutside = 1e6F;
+    if (!(value > -kOutside && value < kOutside)) return static_cast<int>(kOutside);
+    const int toward_zero = static_cast<int>(value);
+    return toward_zero - (value < static_cast<float>(toward_zero) ? 1 : 0);
+  }
+
   bool is_inside(int column, int row) const {
     return column >= 0 && column < side_ && row >= 0 && row < side_;
   }

@@ -112,7 +112,7 @@ void ObstacleFinder::move_to(const Pose3& T_odom_base, const Cloud& cloud) {
 // Where ODOMETRY does not measure roll and pitch, the floor itself tells that they have changed.
 void ObstacleFinder::forget_if_tilted(const std::vector<Ray>& news) {
   if (ground_.is_floor.empty()) return;
-  const std::vector<float> low_m = lowest_points(grid_, news);
+  const std::vector<float> low_m = lowest_points(grid_, news, config_);
   std::vector<float> off_rad;
   for (std::size_t cell = 0; cell < low_m.size(); ++cell) {
     if (!ground_.is_floor[cell] || grid_.range_m(cell) > kNear_m) continue;
@@ -141,9 +141,11 @@ ObstacleScan ObstacleFinder::describe(std::int64_t utime_us, Part part) {
   const std::int64_t until_us = part == Part::kSlice ? utime_us - 1 : utime_us;
   const auto drops = find_drops(grid_, window_.rays(), ground_, config_, until_us);
   points.insert(points.end(), drops.begin(), drops.end());
+  const auto steps = find_steps_down(grid_, ground_, config_, utime_us);
+  points.insert(points.end(), steps.begin(), steps.end());
   if (has_odometry_) {
     memory_.learn(T_odom_base_, utime_us, grid_, window_.rays(), ground_, points);
-    memory_.recall(T_odom_base_, grid_, ground_.is_floor, points);
+    memory_.recall(T_odom_base_, grid_, ground_, FloorRule(config_), points);
   }
   tell_nearest(points, scan);
   return scan;

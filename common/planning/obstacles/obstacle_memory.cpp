@@ -19,12 +19,18 @@ constexpr float kHeights_m = 0.12F;
 constexpr int kDrop = static_cast<int>(ObstacleType::kNegative);
 
 // Whether the floor goes on where there was a drop: in its cell and all round it, for at its edge
-// there is floor on one side at least.
-bool is_closed(std::size_t cell, const LocalGrid& grid, const std::vector<std::uint8_t>& is_floor) {
-  bool closed = is_floor[cell] != 0;
+// there is floor on one side at least, and none of it lower down.
+bool is_closed(std::size_t cell, const LocalGrid& grid, const LocalFloor& ground,
+               const FloorRule& rule) {
+  bool closed = ground.is_floor[cell] != 0;
+  float low_m = ground.height_m[cell], high_m = low_m;
   grid.around(cell, grid.disc(1.5 * static_cast<double>(grid.cell_m())),
-              [&](std::size_t other, float) { closed = closed && is_floor[other] != 0; });
-  return closed;
+              [&](std::size_t other, float) {
+                closed = closed && ground.is_floor[other] != 0;
+                low_m = std::min(low_m, ground.height_m[other]);
+                high_m = std::max(high_m, ground.height_m[other]);
+              });
+  return closed && high_m - low_m <= rule.most_m(2.0F * grid.cell_m(), grid.range_m(cell));
 }
 
 }  // namespace
@@ -79,7 +85,7 @@ std::vector<float> ObstacleMemory::floor_heights(const Pose3& T_odom_base,
 }
 
 void ObstacleMemory::recall(const Pose3& T_odom_base, const LocalGrid& grid,
-                            const std::vector<std::uint8_t>& is_floor,
+                            const LocalFloor& ground, const FloorRule& rule,
                             std::vector<TypedPoint>& points) {
   const Eigen::Isometry3f T_base_odom = T_odom_base.inverse().cast<float>();
   for (auto next = entries_.begin(); next != entries_.end();) {
@@ -89,7 +95,7 @@ void ObstacleMemory::recall(const Pose3& T_odom_base, const LocalGrid& grid,
     const Eigen::Vector3f point = T_base_odom * entry->second.point;
     const auto cell = grid.at(point.head<2>());
     if (!cell) continue;
-    if (type == kDrop && is_closed(*cell, grid, is_floor))
+    if (type == kDrop && is_closed(*cell, grid, ground, rule))
       entries_.erase(entry);
     else
       points.push_back({point, static_cast<ObstacleType>(type), *cell, entry->second.utime_us});

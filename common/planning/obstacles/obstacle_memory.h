@@ -25,9 +25,10 @@ class ObstacleMemory {
   /// Height of remembered floor in each cell, in base; NaN: none.
   std::vector<float> floor_heights(const Pose3& T_odom_base, const LocalGrid& grid) const;
 
-  /// Adds what stood or gaped, in base. A drop is forgotten where there is floor now.
-  void recall(const Pose3& T_odom_base, const LocalGrid& grid,
-              const std::vector<std::uint8_t>& is_floor, std::vector<TypedPoint>& points);
+  /// Adds what stood or gaped, in base. A drop is forgotten where there is one floor now, no part
+  /// of which is lower than the rule allows.
+  void recall(const Pose3& T_odom_base, const LocalGrid& grid, const LocalFloor& ground,
+              const FloorRule& rule, std::vector<TypedPoint>& points);
 
   /// Learns what is seen now: the lowest points of the floor's cells, and what stands or gapes.
   void learn(const Pose3& T_odom_base, std::int64_t utime_us, const LocalGrid& grid,

@@ -35,4 +35,11 @@ std::vector<TypedPoint> find_drops(const LocalGrid& grid, const std::vector<Ray>
                                    const LocalFloor& ground, const ObstacleConfig& config,
                                    std::int64_t until_us);
 
+/// Where the floor goes on lower, as behind a kerb: by more than step_m and rocking_deg, and more
+/// steeply than it falls before and behind the strip between, which the upper floor hides. A short
+/// ramp between two levels looks the same until a beam meets it. Each place is the last of the
+/// upper floor. `utime_us`: the time that they get.
+std::vector<TypedPoint> find_steps_down(const LocalGrid& grid, const LocalFloor& ground,
+                                        const ObstacleConfig& config, std::int64_t utime_us);
+
 }  // namespace voxlist::planning

@@ -19,11 +19,12 @@ void RayWindow::advance(const Pose3& T_odom_base, std::int64_t oldest_us) {
 
 std::vector<Ray> RayWindow::add(const Cloud& cloud_base) {
   const std::vector<Echo> echoes = look_at_echoes(cloud_base);
+  const std::vector<LineDrop> drops = find_line_drops(cloud_base);
   std::vector<Ray> news;
   news.reserve(cloud_base.points.size());
   for (std::size_t i = 0; i < cloud_base.points.size(); ++i)
     news.push_back({cloud_base.points[i], cloud_base.origin(i), cloud_base.utime_us,
-                    echoes[i].is_wide, echoes[i].is_mixed, 0});
+                    echoes[i].is_wide, echoes[i].is_mixed, 0, false, drops[i]});
   count_passes(rays_, news);
   rays_.insert(rays_.end(), news.begin(), news.end());
   return news;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "voxlist/geometry/cloud.h"
+#include "voxlist/planning/rays/line_drops.h"
 
 namespace voxlist::planning {
 
@@ -18,8 +19,9 @@ struct Ray {
   /// Its range is between those of both neighbours on their way: half of the beam met one thing and
   /// half the other, and nothing is there.
   bool is_mixed;
-  int passed;         ///< later rays that went through where it ended
-  bool came = false;  ///< it ended where rays went through before
+  int passed;          ///< later rays that went through where it ended
+  bool came = false;   ///< it ended where rays went through before
+  LineDrop drop = {};  ///< what its scan line says
 };
 
 /// The rays of the last clouds. They are kept in odom, and given in base.

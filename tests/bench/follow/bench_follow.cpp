@@ -17,7 +17,7 @@ const char* name_of(FollowersLaser laser) {
 }
 
 void tell_drives(FollowersLaser laser, int first, int last) {
-  int drives = 0, arrived = 0, touched = 0, people = 0;
+  int drives = 0, arrived = 0, touched = 0, people = 0, looks = 0, with_drop = 0;
   double nearest_m = 1e9, way_m = 0.0, seconds = 0.0;
   for (int seed = first; seed <= last; ++seed) {
     const FollowedDriveResult drive = follow({.seed = seed, .laser = laser});
@@ -25,6 +25,8 @@ void tell_drives(FollowersLaser laser, int first, int last) {
     arrived += drive.arrived;
     touched += drive.touched;
     people += drive.stepped_in;
+    looks += drive.looks;
+    with_drop += drive.looks_with_drop;
     nearest_m = std::min(nearest_m, drive.nearest_m);
     way_m += drive.way_m;
     seconds += drive.seconds;
@@ -35,8 +37,9 @@ void tell_drives(FollowersLaser laser, int first, int last) {
   }
   std::printf(
       "%s: %d drives, %d arrived, %.0f m in %.0f s, %d people stepped in; touched %d, "
-      "nearest %.2f m\n",
-      name_of(laser), drives, arrived, way_m, seconds, people, touched, nearest_m);
+      "nearest %.2f m; %d of %d OBSTACLES with a drop\n",
+      name_of(laser), drives, arrived, way_m, seconds, people, touched, nearest_m, with_drop,
+      looks);
   std::fflush(stdout);
 }
 

@@ -105,6 +105,12 @@ voxlist::pose_t to_message(const Pose2& pose, std::int64_t utime_us) {
   return message;
 }
 
+bool has_drop(const obstacles_t& obstacles) {
+  const auto type = static_cast<std::size_t>(planning::ObstacleType::kNegative);
+  return std::ranges::any_of(obstacles.nearest_m[type],
+                             [](float nearest_m) { return std::isfinite(nearest_m); });
+}
+
 class Drive {
  public:
   explicit Drive(const FollowedDriveConfig& config)
@@ -132,6 +138,8 @@ class Drive {
     eyes_.move(t_s_, pose_);
     const std::vector<Pose2> people = people_now();
     if (auto obstacles = eyes_.look(building_, people)) {
+      ++result_.looks;
+      result_.looks_with_drop += has_drop(*obstacles);
       if (t_s_ >= config_.blind_from_s) obstacles->blind = "the lens is covered";
       if (t_s_ < config_.silent_from_s) follower_.take(*obstacles);
     }

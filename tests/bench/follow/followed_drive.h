@@ -34,6 +34,8 @@ struct FollowedDriveResult {
   double seconds = 0.0;
   double way_m = 0.0;          ///< that it drove
   double stood_after_s = 0.0;  ///< how long it moved on without OBSTACLES or sight
+  int looks = 0;               ///< OBSTACLES
+  int looks_with_drop = 0;     ///< those with a NEGATIVE, of which the building has none
 };
 
 /// Drives until it has arrived, or gives up. Equal configs give equal results.

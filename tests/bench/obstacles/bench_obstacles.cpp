@@ -1,5 +1,6 @@
 // Drives of a robot under the mirror scanner: which drops are NEGATIVE when they are near, what of
 // flat floors and ramps is taken for one, which thin things are missed.
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -54,19 +55,25 @@ bool has_drop_near(const ObstacleScan& scan, const Pose3& T_map_base, const Eige
   return false;
 }
 
-bool finds_drop(SceneKind kind, std::uint64_t seed, double height_m, double speed_mps,
-                double within_m, double sweep_s) {
+// How far a drop is when it must be told (m), farthest first.
+constexpr std::array kWithin_m{3.0, 2.0, 1.0};
+
+// Whether it is, at each of these.
+std::array<bool, kWithin_m.size()> finds_drop(SceneKind kind, std::uint64_t seed, double height_m,
+                                              double speed_mps, double sweep_s) {
   const Scene scene = make_scene(kind, seed);
   MirrorDriveConfig config = drive_config(seed);
   config.scanner_height_m = height_m;
   config.speed_mps = speed_mps;
   config.sweep_s = sweep_s;
   const MirrorDrive drive(scene.world, config);
-  bool found = false;
+  std::array<bool, kWithin_m.size()> found{};
+  std::size_t next = 0;
   drive_on(drive, 60.0, [&](const ObstacleScan& scan, double t_s) {
     const Pose3 truth = drive.truth(t_s);
-    if (scene.edge.x() - truth.translation().x() < within_m) return false;
-    found = has_drop_near(scan, truth, scene.edge);
+    if (scene.edge.x() - truth.translation().x() < kWithin_m[next]) ++next;
+    if (next == kWithin_m.size()) return false;
+    found[next] = has_drop_near(scan, truth, scene.edge);
     return true;
   });
   return found;
@@ -74,16 +81,19 @@ bool finds_drop(SceneKind kind, std::uint64_t seed, double height_m, double spee
 
 void tell_drops(std::uint64_t first, std::uint64_t last, double speed_mps, double sweep_s) {
   for (const double height_m : {0.8, 0.4})
-    for (const double within_m : {2.0, 3.0})
-      for (const SceneKind kind : kDrops) {
-        int found = 0;
-        for (std::uint64_t seed = first; seed <= last; ++seed)
-          found += finds_drop(kind, seed, height_m, speed_mps, within_m, sweep_s);
-        std::printf("scanner %.1f m up, %.1f m/s, sweep %.0f s, at %.0f m: %-6s %d of %d\n",
-                    height_m, speed_mps, sweep_s, within_m, name_of(kind).c_str(), found,
-                    static_cast<int>(last - first + 1));
-        std::fflush(stdout);
+    for (const SceneKind kind : kDrops) {
+      std::array<int, kWithin_m.size()> found{};
+      for (std::uint64_t seed = first; seed <= last; ++seed) {
+        const auto drive = finds_drop(kind, seed, height_m, speed_mps, sweep_s);
+        for (std::size_t i = 0; i < found.size(); ++i) found[i] += drive[i];
       }
+      std::printf("scanner %.1f m up, %.1f m/s, sweep %.0f s: %-6s", height_m, speed_mps, sweep_s,
+                  name_of(kind).c_str());
+      for (std::size_t i = 0; i < found.size(); ++i)
+        std::printf(", %d at %.0f m", found[i], kWithin_m[i]);
+      std::printf(" of %d\n", static_cast<int>(last - first + 1));
+      std::fflush(stdout);
+    }
 }
 
 void tell_false_drops(SceneKind kind, std::uint64_t first, std::uint64_t last, double speed_mps) {

@@ -49,6 +49,27 @@ TEST(Drops, OfStairsAreSeenAtTwoMetres) {
   EXPECT_LE(last.ground_seen_to_m[0], 2.3F);
 }
 
+TEST(Drops, OfHolesAndKerbsAreSeenAMetreBeforeThem) {
+  for (const SceneKind kind : {SceneKind::kHole, SceneKind::kKerb}) {
+    const bench::Scene scene = bench::make_scene(kind, 2);
+    const MirrorDrive drive(scene.world, towards_the_edge(2.7, 0.5));
+    ObstacleScan last;
+    drive_on(drive, 3.4, true, [&](const ObstacleScan& scan, double) { last = scan; });
+    EXPECT_GT(drops_of(last), 0) << bench::name_of(kind);
+    EXPECT_LE(last.ground_seen_to_m[0], 1.3F) << bench::name_of(kind);
+  }
+}
+
+// The floor between two low boxes that stand side by side is no hole between them.
+TEST(Drops, AreNotTheFloorBetweenBoxes) {
+  const bench::SlabWorld world =
+      bench::flat_with({bench::block({1.6, 0.2, 0.0}, {2.0, 1.2, 0.08}),
+                        bench::block({1.6, -1.2, 0.0}, {2.0, -0.2, 0.08})});
+  const MirrorDrive drive(world, towards_the_edge(2.0, 0.4));
+  drive_on(drive, 3.0, true,
+           [&](const ObstacleScan& scan, double t_s) { EXPECT_EQ(drops_of(scan), 0) << t_s; });
+}
+
 TEST(Drops, AreNoneOnFlatFloorAndOnARamp) {
   for (const SceneKind kind : {SceneKind::kFlat, SceneKind::kRampUp}) {
     const bench::Scene scene = bench::make_scene(kind, 1);

@@ -4,6 +4,7 @@
 
 #include "voxlist/geometry/angle.h"
 #include "voxlist/planning/rays/beam_spacing.h"
+#include "voxlist/planning/rays/line_drops.h"
 #include "voxlist/planning/rays/passed_through.h"
 #include "voxlist/planning/rays/single_echoes.h"
 
@@ -67,6 +68,54 @@ TEST(Echo, IsMixedBetweenItsNeighboursAlone) {
   EXPECT_TRUE(echoes[1].is_mixed);
   EXPECT_FALSE(echoes[3].is_mixed);
   EXPECT_FALSE(echoes[4].is_mixed) << "a leg in front of a wall";
+}
+
+// One line of beams of 1 deg, straight ahead and down, from 0.8 m above floor that it meets 2 m
+// ahead; `meets_m(y)`: how far ahead it ends where it passes y at 2 m.
+template <class Meets>
+Cloud line_over(const Meets& meets_m) {
+  Cloud cloud;
+  for (int beam = -30; beam <= 30; ++beam) {
+    const double y = 2.15 * std::tan(beam * kRadPerDeg), x = meets_m(y);
+    cloud.points.push_back(Eigen::Vector3d(x, x / 2.0 * y, 0.8 - 0.4 * x).cast<float>());
+    cloud.origins.emplace_back(0.0F, 0.0F, 0.8F);
+  }
+  return cloud;
+}
+
+int points_in(const std::vector<LineDrop>& drops) {
+  int points = 0;
+  for (const LineDrop& drop : drops) points += drop.below_m > 0.0F;
+  return points;
+}
+
+TEST(LineDrops, AreTheFarWallOfAHole) {
+  const auto drops =
+      find_line_drops(line_over([](double y) { return std::abs(y) < 0.15 ? 2.1 : 2.0; }));
+  EXPECT_EQ(points_in(drops), 7);
+  for (const LineDrop& drop : drops)
+    if (drop.below_m > 0.0F) {
+      EXPECT_NEAR(drop.below_m, 0.04, 1e-3);
+      EXPECT_TRUE(drop.is_between);
+    }
+}
+
+TEST(LineDrops, AreTheFirstBeamsBeyondAKerb) {
+  for (const double side : {-1.0, 1.0}) {
+    const auto drops =
+        find_line_drops(line_over([&](double y) { return side * y > 0.1 ? 2.3 : 2.0; }));
+    EXPECT_EQ(points_in(drops), 8);
+    EXPECT_GT(drops[side > 0.0 ? 34 : 26].below_m, 0.1F);
+    EXPECT_FALSE(drops[side > 0.0 ? 34 : 26].is_between);
+  }
+}
+
+TEST(LineDrops, AreNeitherARollingRobotNorNoiseNorAWall) {
+  const auto noise_m = [](double y) { return 0.01 * std::sin(1000.0 * y); };
+  EXPECT_EQ(points_in(find_line_drops(line_over([&](double y) { return 2.0 + noise_m(y); }))), 0);
+  EXPECT_EQ(points_in(find_line_drops(line_over([](double y) { return 2.0 + 0.2 * y; }))), 0);
+  const auto wall_m = [](double y) { return y < 0.4 ? 2.0 : std::max(0.5, 2.0 - 2.0 * (y - 0.4)); };
+  EXPECT_EQ(points_in(find_line_drops(line_over(wall_m))), 0);
 }
 
 TEST(BeamSpacing, IsThatOfARingLaser) {
