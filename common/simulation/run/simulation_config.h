@@ -122,7 +122,8 @@ struct SimulationConfig {
   template <class Visitor>
   void visit_ideal(Visitor& v) {
     v("perfect_deskew", perfect_deskew,
-      "ideal clouds are put together by the true motion, not by what the wheels measured");
+      "clouds of voxlist simulate, and ideal ones, are put together by the true motion, not by "
+      "what the wheels measured");
     v("cloud_range_max_m", sweep.range_max_m, "ideal clouds have no points farther away", 1.0,
       100.0);
     v("cloud_range_sd_m", sweep.range_sd_m,

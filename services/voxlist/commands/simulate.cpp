@@ -101,7 +101,9 @@ int simulate(const SimulateOptions& options, Console& console) {
   const SimulateSettings settings = read_settings(options);
   simulation::SimulatedRun run(settings.simulation);
   FreshFile file(options.log);
-  SimulatedLog log(file.path(), settings.prefix, run.scanner().config(), settings.assembler);
+  SimulatedLog log(file.path(), settings.prefix, run.scanner().config(), settings.assembler,
+                   settings.simulation.perfect_deskew ? SimulatedLog::Deskew::kTruth
+                                                      : SimulatedLog::Deskew::kWheels);
   {
     Progress progress(console, "simulating");
     while (!stop_requested()) {

@@ -35,21 +35,22 @@ StampedPose2 dated(StampedPose2 pose) {
 
 SimulatedLog::SimulatedLog(const std::string& path, const std::string& prefix,
                            const simulation::MirrorScannerConfig& scanner,
-                           const scanner::CloudAssemblerConfig& assembler)
-    : log_(path, prefix), mirror_(clock_of(scanner)), assembler_(assembler) {}
+                           const scanner::CloudAssemblerConfig& assembler, Deskew deskew)
+    : log_(path, prefix), mirror_(clock_of(scanner)), assembler_(assembler), deskew_(deskew) {}
 
 void SimulatedLog::operator()(const simulation::SimulatedOdometry& event) {
   const StampedPose2 pose = dated(event.measured);
   hear_lines(pose.utime_us);
   log_.write(bus::kOdometry, pose.utime_us, bus::to_message(pose));
   ++counts_.odometry;
-  write(assembler_.add_odometry(pose), pose.utime_us);
+  if (deskew_ == Deskew::kWheels) write(assembler_.add_odometry(pose), pose.utime_us);
 }
 
 void SimulatedLog::operator()(const simulation::SimulatedTruth& event) {
   const StampedPose2 pose = dated(event.pose);
   hear_lines(pose.utime_us);
   log_.write(bus::kTruth, pose.utime_us, bus::to_message(pose));
+  if (deskew_ == Deskew::kTruth) write(assembler_.add_odometry(pose), pose.utime_us);
 }
 
 void SimulatedLog::operator()(const simulation::SimulatedClockEdge& event) {

@@ -25,10 +25,13 @@ class SimulatedLog {
     std::int64_t lines = 0, clouds = 0, slices = 0, odometry = 0;
   };
 
+  /// What clouds are put together by.
+  enum class Deskew { kWheels, kTruth };
+
   /// Throws as EventLogWriter and CloudAssembler do.
   SimulatedLog(const std::string& path, const std::string& prefix,
                const simulation::MirrorScannerConfig& scanner,
-               const scanner::CloudAssemblerConfig& assembler);
+               const scanner::CloudAssemblerConfig& assembler, Deskew deskew);
 
   // The run's events, in its order.
   void operator()(const simulation::SimulatedOdometry& event);
@@ -50,6 +53,7 @@ class SimulatedLog {
   bus::EventLogWriter log_;
   scanner::MirrorClock mirror_;
   scanner::CloudAssembler assembler_;
+  const Deskew deskew_;
   std::deque<LaserLine> under_way_;
   Counts counts_;
 };
