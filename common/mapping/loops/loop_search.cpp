@@ -41,8 +41,8 @@ UncertainPose in_window(UncertainPose predicted) {
 class Search {
  public:
   Search(const PoseTree& tree, const ReadCloud& read, const matching::MatcherConfig& config,
-         LookMemory* memory)
-      : tree_(tree), read_(read), config_(config), memory_(memory) {}
+         LookMemory* memory, const DriveHeights& heights_m)
+      : tree_(tree), read_(read), config_(config), memory_(memory), heights_m_(heights_m) {}
 
   // Several threads at once, the same for any number of them.
   std::vector<Loop> find() const {
@@ -109,8 +109,10 @@ class Search {
     return {from < to ? edge : reversed(edge), to, probability};
   }
 
-  // Whether the drive tells too little of how they stand: by a long way, or by a vague step.
+  // Whether the drive tells too little of how they stand, by a long way or by a vague step, and
+  // they may see the same.
   bool is_open(std::size_t a, std::size_t b) const {
+    if (!may_share_floor(heights_m_, a, b)) return false;
     return is_long_way(tree_.way_m(a, b), distance_m(tree_.pose(a), tree_.pose(b))) ||
            worst_sigma_m(tree_.between(a, b).covariance) > kUnsure_m;
   }
@@ -151,6 +153,7 @@ class Search {
   const ReadCloud& read_;
   const matching::MatcherConfig config_;
   LookMemory* const memory_;
+  const DriveHeights& heights_m_;
 };
 
 }  // namespace
@@ -162,8 +165,9 @@ bool is_long_way(double way_m, double away_m) {
 }
 
 std::vector<Loop> find_loops(const PoseTree& tree, const ReadCloud& read,
-                             const matching::MatcherConfig& config, LookMemory* memory) {
-  return Search(tree, read, config, memory).find();
+                             const matching::MatcherConfig& config, LookMemory* memory,
+                             const DriveHeights& heights_m) {
+  return Search(tree, read, config, memory, heights_m).find();
 }
 
 }  // namespace voxlist::mapping

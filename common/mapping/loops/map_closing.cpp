@@ -63,16 +63,17 @@ ReadCloud one_by_one(const ReadCloud& read, std::mutex& mutex) {
 
 MapClosing close_map(const std::vector<Pose2>& poses, const DriveOdometry& odometry,
                      const ReadCloud& read_cloud, const matching::MatcherConfig& config,
-                     const KnownLook& known, LookMemory* memory) {
+                     const KnownLook& known, LookMemory* memory, const DriveHeights& heights_m) {
   MapClosing closing;
   closing.poses = poses;
   if (!has_long_step(poses) && !may_come_back(poses, config.scan.max_range_m)) return closing;
   std::mutex mutex;
   const ReadCloud read = one_by_one(read_cloud, mutex);
-  const std::vector<PoseEdge> drive = join_neighbours(poses, odometry, read, config, known, memory);
+  const std::vector<PoseEdge> drive =
+      join_neighbours(poses, odometry, read, config, known, memory, heights_m);
   const PoseTree tree(poses.size(), drive);
   const ClosedDrive closed =
-      close_loops(tree, drive, find_loops(tree, read, config, memory), poses.front());
+      close_loops(tree, drive, find_loops(tree, read, config, memory, heights_m), poses.front());
   closing.refused = closed.refused.size();
   closing.edges = drive;
   for (const Loop& loop : closed.loops) closing.edges.push_back(loop.edge);

@@ -32,9 +32,10 @@ struct MapClosing {
 /// drive came back or has a step of more than 10 m; next to nothing where it did not. Several
 /// matches at once, on the threads of the caller's arena; `read_cloud` is asked by one at a time.
 /// `known`: looks of neighbours that were taken before; `memory`: all looks that were, it keeps the
-/// others. The answer is the same without them.
+/// others. The answer is the same without them. `heights_m`: no loop joins two storeys.
 MapClosing close_map(const std::vector<Pose2>& poses, const DriveOdometry& odometry,
                      const ReadCloud& read_cloud, const matching::MatcherConfig& config,
-                     const KnownLook& known = {}, LookMemory* memory = nullptr);
+                     const KnownLook& known = {}, LookMemory* memory = nullptr,
+                     const DriveHeights& heights_m = {});
 
 }  // namespace voxlist::mapping

@@ -12,8 +12,6 @@ constexpr double kMap_m = 0.3, kMap_rad = 0.02;
 // A match of neighbours is taken from this probability on; of 245 pairs of real stations that had
 // more, one was off by more than 0.3 m.
 constexpr double kTaken = 0.5;
-// A match that leaves a direction less sure than this (m) says no more than the map did.
-constexpr double kTold_m = 0.25;
 // One that knows all directions so well (m), as between the scans of a drive, is not asked again
 // the other way round: of stations, where one was, the two differ by more in half of the pairs.
 constexpr double kPlain_m = 0.005;
@@ -49,6 +47,12 @@ UncertainPose as_mapped(const Pose2& T_from_to) {
   return {T_from_to, sigma.cwiseAbs2().asDiagonal()};
 }
 
+bool is_vague(const UncertainPose& match) {
+  // As sure as the map was: what the match began with.
+  constexpr double kTold_m = 0.25;
+  return worst_sigma_m(match.covariance) > kTold_m;
+}
+
 NeighbourLook no_look_yet(const Pose2& T_map_from, const Pose2& T_map_to) {
   return {T_map_from.inverse() * T_map_to, T_map_to.inverse() * T_map_from, {}, {}};
 }
@@ -71,7 +75,6 @@ std::optional<UncertainPose> NeighbourLooker::match(std::size_t keyframe, LocalM
   const matching::ReachMatch found = map.match(prepared(keyframe).scan, as_mapped(expected));
   if (found.best() < kTaken) return std::nullopt;
   const matching::MatchMode& best = found.match.modes.front();
-  if (worst_sigma_m(best.covariance) > kTold_m) return std::nullopt;
   return UncertainPose{best.pose, best.covariance};
 }
 

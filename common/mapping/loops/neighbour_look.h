@@ -32,7 +32,8 @@ class NeighbourLooker {
   NeighbourLook look(std::size_t from, std::size_t to, const Pose2& T_map_from,
                      const Pose2& T_map_to);
 
-  /// A scan in a map of others, near where it is expected; nothing where that tells no more.
+  /// A scan in a map of others, near where it is expected, be it vague; nothing where it does not
+  /// fit.
   std::optional<UncertainPose> match(std::size_t keyframe, LocalMap& map, const Pose2& expected);
 
  private:
@@ -50,6 +51,10 @@ NeighbourLook no_look_yet(const Pose2& T_map_from, const Pose2& T_map_to);
 
 /// Whether two looks are for the same places, bit for bit.
 bool are_alike(const NeighbourLook& a, const NeighbourLook& b);
+
+/// Whether a match leaves a direction no surer than the map had it: along a corridor it tells yaw
+/// and the way across alone.
+bool is_vague(const UncertainPose& match);
 
 /// How two keyframes stand as the map has it: that sure.
 UncertainPose as_mapped(const Pose2& T_from_to);

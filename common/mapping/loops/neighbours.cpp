@@ -82,9 +82,11 @@ std::vector<NeighbourLook> look_at_neighbours(const std::vector<Pose2>& poses,
 class Neighbours {
  public:
   Neighbours(const std::vector<Pose2>& poses, const DriveOdometry& odometry, const ReadCloud& read,
-             const matching::MatcherConfig& config, const KnownLook& known, LookMemory* memory)
+             const matching::MatcherConfig& config, const KnownLook& known, LookMemory* memory,
+             const DriveHeights& heights_m)
       : poses_(poses),
         odometry_(odometry),
+        heights_m_(heights_m),
         read_(read),
         config_(config),
         looks_(look_at_neighbours(poses, read, config, known, memory)),
@@ -95,11 +97,11 @@ class Neighbours {
 
   std::vector<PoseEdge> join() {
     for (std::size_t i = 1; i < poses_.size(); ++i)
-      add(i - 1, i, looks_[i]) || join_with_more(i - 1, i) || join_by_odometry(i - 1, i, kTold_rad);
+      add(i - 1, i, looks_[i]) || join_with_more(i - 1, i) || join_by_both(i - 1, i, kTold_rad);
     join_parts();
     for (std::size_t i = 1; i < poses_.size(); ++i)
       if (part_[i - 1] != part_[i])
-        join_by_odometry(i - 1, i, std::numbers::pi) || add(unmatched(i - 1, i));
+        join_by_both(i - 1, i, std::numbers::pi) || add(unmatched(i - 1, i));
     return std::move(edges_);
   }
 
@@ -135,28 +137,57 @@ class Neighbours {
     return looker_.match(to, map, expected(from, to));
   }
 
-  bool join_by_odometry(std::size_t from, std::size_t to, double vaguest_rad) {
-    const auto told = odometry_step(odometry_, from, to);
-    return told && std::sqrt(told->covariance(2, 2)) <= vaguest_rad && add({from, to, *told});
+  // By odometry, and by a match where there is one that is vague: it knows yaw and what is across
+  // a corridor far better.
+  bool join_by_both(std::size_t from, std::size_t to, double vaguest_rad) {
+    const auto told = told_step(from, to);
+    if (!told || std::sqrt(told->covariance(2, 2)) > vaguest_rad) return false;
+    const auto matched = edge_of(from, to, looks_[to]);
+    return add({from, to, matched ? with_odometry(matched->T_from_to, told) : *told});
+  }
+
+  // What odometry tells of a step. Where it does not contradict the map, it stands as mapped: the
+  // tracker had learned what the wheels are off by.
+  std::optional<UncertainPose> told_step(std::size_t from, std::size_t to) const {
+    auto told = odometry_step(odometry_, from, to);
+    if (told && agrees(expected(from, to), *told)) told->pose = expected(from, to);
+    return told;
   }
 
   bool add(std::size_t from, std::size_t to, const NeighbourLook& look) {
-    const auto &there = look.there, &back = look.back;
-    if (!there && !back) return false;
-    PoseEdge edge = there ? PoseEdge{from, to, *there} : reversed({to, from, *back});
-    if (there && back)
-      edge.T_from_to = mean_of(edge.T_from_to, reversed({to, from, *back}).T_from_to);
-    const Pose2& motion = edge.T_from_to.pose;
-    edge.T_from_to.covariance += (1.0 + distance_m(motion, {})) * variances(kDrift_m, kDrift_rad);
-    edge.T_from_to = with_odometry(edge.T_from_to, odometry_step(odometry_, edge.from, edge.to));
-    return add(edge);
+    auto edge = edge_of(from, to, look);
+    if (!edge || edge->is_vague) return false;
+    edge->T_from_to = with_odometry(edge->T_from_to, told_step(from, to));
+    return add({from, to, edge->T_from_to});
   }
 
+  struct MatchedStep {
+    UncertainPose T_from_to;
+    bool is_vague = false;
+  };
+
+  // What two matches tell of a step; of a vague one and another, the other.
+  std::optional<MatchedStep> edge_of(std::size_t from, std::size_t to,
+                                     const NeighbourLook& look) const {
+    auto there = look.there, back = look.back;
+    if (there && back && is_vague(*there) != is_vague(*back))
+      (is_vague(*there) ? there : back).reset();
+    if (!there && !back) return std::nullopt;
+    if (back) back = reversed({to, from, *back}).T_from_to;
+    MatchedStep step{there && back ? mean_of(*there, *back) : there ? *there : *back};
+    step.is_vague = is_vague(there ? *there : *back);
+    const double away_m = distance_m(step.T_from_to.pose, {});
+    step.T_from_to.covariance += (1.0 + away_m) * variances(kDrift_m, kDrift_rad);
+    return step;
+  }
+
+  // As mapped, and where there is a vague match, as that has it, too.
   PoseEdge unmatched(std::size_t from, std::size_t to) const {
     UncertainPose motion = as_mapped(expected(from, to));
     motion.covariance = variances(
         kUnmatched_m + kUnmatchedShare * distance_m(poses_[from], poses_[to]), kUnmatched_rad);
-    return {from, to, motion};
+    const auto matched = edge_of(from, to, looks_[to]);
+    return {from, to, matched ? together(motion, matched->T_from_to) : motion};
   }
 
   // Tries pairs of different parts, the nearest first.
@@ -171,7 +202,7 @@ class Neighbours {
     for (std::size_t b = 1; b < poses_.size(); ++b)
       for (std::size_t a = 0; a < b; ++a)
         if (const double away_m = distance_m(poses_[a], poses_[b]);
-            part_[a] != part_[b] && away_m <= kSight_m)
+            part_[a] != part_[b] && away_m <= kSight_m && may_share_floor(heights_m_, a, b))
           pairs.push_back({away_m, a, b});
     std::stable_sort(pairs.begin(), pairs.end(),
                      [](const Pair& a, const Pair& b) { return a.distance_m < b.distance_m; });
@@ -187,6 +218,7 @@ class Neighbours {
 
   const std::vector<Pose2>& poses_;
   const DriveOdometry& odometry_;
+  const DriveHeights& heights_m_;
   const ReadCloud& read_;
   const matching::MatcherConfig& config_;
   const std::vector<NeighbourLook> looks_;
@@ -201,8 +233,8 @@ class Neighbours {
 std::vector<PoseEdge> join_neighbours(const std::vector<Pose2>& poses,
                                       const DriveOdometry& odometry, const ReadCloud& read,
                                       const matching::MatcherConfig& config, const KnownLook& known,
-                                      LookMemory* memory) {
-  return in_tree_order(Neighbours(poses, odometry, read, config, known, memory).join());
+                                      LookMemory* memory, const DriveHeights& heights_m) {
+  return in_tree_order(Neighbours(poses, odometry, read, config, known, memory, heights_m).join());
 }
 
 }  // namespace voxlist::mapping

@@ -10,14 +10,15 @@
 namespace voxlist::mapping {
 
 /// The drive's own way: what joins the keyframes of a map, whose poses are about right, to a tree.
-/// Each is matched with the one before, and odometry tells what the match does not, unless it is
-/// vague; where a drive hangs together otherwise, the nearest ones that match join its parts; and
-/// what no match joins stands as vague odometry or the map has it, and is not sure of that. In the
-/// order that PoseTree wants. Looks that are `known` or in the memory, where the poses say the
-/// same, are not taken again; the memory keeps the others.
+/// Each is matched with the one before, and odometry tells what the match does not, such as the way
+/// along a corridor, unless it is vague itself; where a drive hangs together otherwise, the nearest
+/// ones that match join its parts; and what no match joins stands as vague odometry or the map has
+/// it, and is not sure of that. In the order that PoseTree wants. Looks that are `known` or in the
+/// memory, where the poses say the same, are not taken again; the memory keeps the others.
 std::vector<PoseEdge> join_neighbours(const std::vector<Pose2>& poses,
                                       const DriveOdometry& odometry, const ReadCloud& read,
                                       const matching::MatcherConfig& config,
-                                      const KnownLook& known = {}, LookMemory* memory = nullptr);
+                                      const KnownLook& known = {}, LookMemory* memory = nullptr,
+                                      const DriveHeights& heights_m = {});
 
 }  // namespace voxlist::mapping

@@ -1,6 +1,7 @@
 #include "voxlist/mapping/loops/odometry_step.h"
 
 #include <Eigen/LU>
+#include <cmath>
 
 #include "voxlist/matching/motion/pose_fusion.h"
 #include "voxlist/matching/motion/tracked_pose.h"
@@ -14,6 +15,12 @@ constexpr double kAgree2 = 3.5 * 3.5;
 
 }  // namespace
 
+bool may_share_floor(const DriveHeights& heights_m, std::size_t a, std::size_t b) {
+  // Storeys are farther apart (m), and what a drive's height drifts by is less.
+  constexpr double kStorey_m = 1.5;
+  return heights_m.empty() || std::abs(heights_m[a] - heights_m[b]) < kStorey_m;
+}
+
 std::optional<UncertainPose> odometry_step(const DriveOdometry& odometry, std::size_t from,
                                            std::size_t to) {
   if (odometry.empty() || !odometry[from] || !odometry[to]) return std::nullopt;
@@ -21,6 +28,10 @@ std::optional<UncertainPose> odometry_step(const DriveOdometry& odometry, std::s
   // The time that it took tells of the velocity only, which nobody asks for.
   pose.follow_odometry(odometry[from]->inverse() * *odometry[to], 1.0);
   return pose.pose();
+}
+
+bool agrees(const Pose2& T_from_to, const UncertainPose& told) {
+  return mahalanobis2(T_from_to, told) <= kAgree2;
 }
 
 UncertainPose together(const UncertainPose& a, const UncertainPose& b) {
@@ -35,7 +46,7 @@ UncertainPose with_odometry(const UncertainPose& matched,
                             const std::optional<UncertainPose>& told) {
   if (!told) return matched;
   const UncertainPose apart{told->pose, told->covariance + matched.covariance};
-  return mahalanobis2(matched.pose, apart) <= kAgree2 ? together(matched, *told) : matched;
+  return agrees(matched.pose, apart) ? together(matched, *told) : matched;
 }
 
 }  // namespace voxlist::mapping

@@ -41,15 +41,17 @@ struct Drive {
   Order order;
   std::vector<Pose2> poses;
   DriveOdometry odometry;
+  DriveHeights heights_m;
   ReadCloud read;
   KnownLook known;
 };
 
 Drive drive_of(const MapKeyframes& keyframes, const ReadCloud& read, const KnownLook& known) {
-  Drive drive{order_of_drive(keyframes), {}, {}, {}, {}};
+  Drive drive{order_of_drive(keyframes), {}, {}, {}, {}, {}};
   for (const std::size_t i : drive.order) {
     drive.poses.push_back(keyframes[i].T_map_keyframe);
     drive.odometry.push_back(keyframes[i].T_odom_keyframe);
+    drive.heights_m.push_back(keyframes[i].tilt.value_or(Tilt{}).z_m);
   }
   drive.read = [&read, order = drive.order](std::size_t i) { return read(order[i]); };
   if (known)
@@ -99,8 +101,8 @@ SessionClosing close_sessions(const MapKeyframes& keyframes, const ReadCloud& re
                               const matching::MatcherConfig& config, const KnownLook& known,
                               LookMemory* memory) {
   const Drive drive = drive_of(keyframes, read, known);
-  const MapClosing closed =
-      close_map(drive.poses, drive.odometry, drive.read, config, drive.known, memory);
+  const MapClosing closed = close_map(drive.poses, drive.odometry, drive.read, config, drive.known,
+                                      memory, drive.heights_m);
   SessionClosing closing;
   closing.refused = closed.refused;
   closing.edges = in_file(closed.edges, drive.order);
@@ -125,8 +127,10 @@ std::vector<PoseEdge> drive_edges(const MapKeyframes& keyframes, const ReadCloud
     return read(keyframe);
   };
   const Drive drive = drive_of(keyframes, one_by_one, known);
-  std::vector<PoseEdge> edges = in_file(
-      join_neighbours(drive.poses, drive.odometry, drive.read, config, drive.known), drive.order);
+  std::vector<PoseEdge> edges =
+      in_file(join_neighbours(drive.poses, drive.odometry, drive.read, config, drive.known, nullptr,
+                              drive.heights_m),
+              drive.order);
   if (is_in_space(keyframes)) {
     std::vector<Pose2> poses(keyframes.size());
     std::transform(keyframes.begin(), keyframes.end(), poses.begin(),

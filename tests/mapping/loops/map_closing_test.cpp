@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
 #include "tests/mapping/graph/block_drive.h"
@@ -19,14 +20,14 @@ class MapClosingTest : public testing::Test {
   }
 
   MapClosing close(const std::vector<Pose2>& poses, const DriveOdometry& odometry = {},
-                   LookMemory* memory = nullptr) {
+                   LookMemory* memory = nullptr, const DriveHeights& heights_m = {}) {
     return close_map(
         poses, odometry,
         [&](std::size_t i) {
           ++reads_;
           return scan(truth_[i], i);
         },
-        {}, {}, memory);
+        {}, {}, memory, heights_m);
   }
 
   std::vector<Pose2> truth_ = way_round(12.0);
@@ -96,6 +97,16 @@ TEST_F(MapClosingTest, AStepThatNoMatchTellsIsToldByLooksAcrossIt) {
   const MapClosing closing = close(before);
   EXPECT_TRUE(closing.moves);
   EXPECT_LT(rmse_m(closing.poses, truth_), 0.05);
+}
+
+// It comes back on the next floor, which looks the same.
+TEST_F(MapClosingTest, NoLoopJoinsTwoStoreys) {
+  DriveHeights heights_m(truth_.size(), 0.0);
+  std::fill(heights_m.begin() + 25, heights_m.end(), 3.0);
+  const MapClosing closing = close(bent(truth_), {}, nullptr, heights_m);
+  EXPECT_FALSE(closing.moves);
+  EXPECT_EQ(closing.loops, 0u);
+  for (const PoseEdge& edge : closing.edges) EXPECT_EQ(edge.to, edge.from + 1);
 }
 
 TEST_F(MapClosingTest, WhereADriveDoesNotComeBackNothingIsLookedAt) {
