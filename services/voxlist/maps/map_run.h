@@ -106,7 +106,7 @@ class MapRun {
   void join(mapping::Piece& piece, mapping::Piece& other, const Pose2& T_piece_other);
 
   bool join_one();
-  bool joins_map(mapping::Piece& piece, const mapping::SpooledKeyframe& keyframe);
+  bool joins(mapping::Piece& larger, mapping::Piece& smaller);
   void place_loose();
   bool place_between(const Cloud& cloud, const std::optional<Pose2>& T_odom_base);
   bool place_anywhere(const Cloud& cloud, const std::optional<Pose2>& T_odom_base);

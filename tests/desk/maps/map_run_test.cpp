@@ -244,6 +244,22 @@ TEST_F(MapRunTest, MakesOneOfTwoPiecesWhereAScanFitsBoth) {
   expect_true_poses(run);
 }
 
+// The robot was in a room, then long elsewhere, and in the room again: what it saw of the room is
+// one piece, though it is not the map.
+TEST_F(MapRunTest, JoinsPiecesAtTheEndThatAreNotTheMap) {
+  const simulation::World elsewhere(building(9));
+  MapRun run({}, {}, spool_);
+  for (const double share : {0.2, 0.1}) see(run, in_room(0, share));
+  for (int i = 0; i < 6; ++i) see(run, elsewhere, {2.0 + 0.2 * i, 0.0, 0.0});
+  for (const double share : {0.0, -0.1}) see(run, in_room(0, share));
+  EXPECT_EQ(run.figures().pieces, 2);
+  run.finish();
+  EXPECT_EQ(run.figures().placed, 6);
+  EXPECT_EQ(run.figures().pieces, 1);
+  EXPECT_EQ(run.figures().in_pieces, 4);
+  expect_true_poses(run);
+}
+
 TEST_F(MapRunTest, PlacesAScanAtTheEndWhereTheMapHasGrown) {
   MapRun run({}, {}, spool_);
   see(run, in_room(5));
