@@ -25,6 +25,10 @@ Eigen::Vector3d miss(const PoseEdge& edge, const Pose2& from, const Pose2& to);
 /// as it says.
 double distance2(const PoseEdge& edge, const std::vector<Pose2>& poses);
 
+/// How large the worst of so many squares may be by chance, where one alone may be `of_one`: each
+/// is to exceed it so many times more seldom.
+double worst_by_chance(double of_one, std::size_t edges);
+
 /// The same in the plane, told the other way round.
 PoseEdge reversed(const PoseEdge& edge);
 

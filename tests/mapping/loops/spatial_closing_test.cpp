@@ -11,16 +11,18 @@
 namespace voxlist::mapping {
 namespace {
 
-// Keyframes as a drive has them that is 4 mm too high and a fortieth of a degree too steep at each
-// step, and turns too far.
+// Keyframes as a drive has them that climbs 4 mm and a fortieth of a degree too much at each step,
+// and turns too far: neighbours stand to each other nearly as they should.
 MapKeyframes risen(const std::vector<Pose2>& truth) {
-  const std::vector<Pose2> planar = bent(truth);
   MapKeyframes keyframes;
-  for (std::size_t i = 0; i < planar.size(); ++i) {
-    const double steps = static_cast<double>(i);
+  Pose3 pose = to_pose3(truth.front());
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    if (i > 0)
+      pose = pose * to_pose3(truth[i - 1].inverse() * truth[i] * Pose2{0.0, 0.0, 0.001},
+                             {0.004, 0.0, -0.0004});
     keyframes.push_back({.utime_us = static_cast<std::int64_t>(i),
-                         .T_map_keyframe = planar[i],
-                         .tilt = Tilt{0.004 * steps, 0.0, -0.0004 * steps}});
+                         .T_map_keyframe = to_pose2(pose),
+                         .tilt = tilt_of(pose)});
   }
   return keyframes;
 }
@@ -63,7 +65,7 @@ TEST_F(SpatialClosing, HeightAndTiltOfADriveThatComesBackAreClosed) {
   const MapKeyframes after = moved(before, closing);
   const Eigen::Array3d was = rmse(before), is = rmse(after);
   EXPECT_GT(was[0], 0.1);
-  EXPECT_LT(is[0], 0.05);
+  EXPECT_LT(is[0], 0.08) << was.transpose() << ", then " << is.transpose();
   EXPECT_LT(is[1], 0.003);
   EXPECT_LT(is[2], 0.003);
   EXPECT_LT(rmse_m(planar_of(after), truth_), 0.03);
