@@ -13,6 +13,7 @@
 #include "services/voxlist/output/stop.h"
 #include "tests/desk/scan_set.h"
 #include "tests/stored_map.h"
+#include "voxlist/mapping/loops/stored_looks.h"
 #include "voxlist/mapping/map_store.h"
 #include "voxlist/system/file_lock.h"
 
@@ -166,6 +167,18 @@ TEST_F(Extend, IsWhatMapDoesWhenItIsToldAMapToExtend) {
     EXPECT_EQ(test::read_text(other + "/" + file), text(file)) << file;
   EXPECT_GT(desk({"map", scans_}).exit_code, 100);
   EXPECT_GT(desk({"map", scans_, "--into", other, "-o", folder_}).exit_code, 100);
+}
+
+TEST_F(Extend, GivesTheSameMapByTheLooksOfTheSessionBeforeAndByNewOnes) {
+  const std::string other = work_ / "other", looks = std::string("/") + mapping::kLooksFile;
+  ASSERT_EQ(desk({"extend", folder_, scans_}).exit_code, 0);
+  ASSERT_TRUE(fs::exists(folder_ + looks));
+  fs::copy(folder_, other, fs::copy_options::recursive);
+  test::write_text(other + looks, "torn");
+  ASSERT_EQ(desk({"extend", folder_, work_ / "first"}).exit_code, 0);
+  ASSERT_EQ(desk({"extend", other, work_ / "first"}).exit_code, 0);
+  for (const std::string file : {"keyframes.voxlist", "graph.g2o", "map.ply", mapping::kLooksFile})
+    EXPECT_EQ(test::read_text(other + "/" + file), text(file)) << file;
 }
 
 TEST_F(Extend, GivesTheVeryMapThatARebuildGives) {

@@ -45,6 +45,8 @@ struct MatcherConfig {
   /// each.
   int max_nodes = kMostNodes;
 
+  bool operator==(const MatcherConfig&) const = default;
+
   template <class Visitor>
   void visit(Visitor& v) {
     v("engine", engine, kEngineNames,

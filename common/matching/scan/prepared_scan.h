@@ -23,6 +23,8 @@ struct ScanConfig {
   /// walls and furniture, and leaves alone what is above its heads.
   std::vector<double> match_heights_m{};
 
+  bool operator==(const ScanConfig&) const = default;
+
   template <class Visitor>
   void visit(Visitor& v) {
     v("max_range_m", max_range_m, "points farther away take no part in matching", 1.0, 500.0);

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "voxlist/io/files/file.h"
+#include "voxlist/mapping/loops/stored_looks.h"
 
 namespace voxlist::desk {
 
@@ -55,7 +56,12 @@ mapping::Keyframe ExtendedMap::read(std::size_t keyframe) {
 
 mapping::SessionClosing ExtendedMap::close(const matching::MatcherConfig& config) {
   const auto level = [&](std::size_t i) { return mapping::level_cloud(read(i)); };
-  mapping::SessionClosing closing = mapping::close_sessions(keyframes_, level, config);
+  mapping::LookMemory memory;
+  // The mapper, too, looks by the default settings alone.
+  const bool is_usual = config == matching::MatcherConfig();
+  if (is_usual) mapping::read_looks(folder_, store_.map_id(), keyframes_, memory);
+  mapping::SessionClosing closing = mapping::close_sessions(keyframes_, level, config, {}, &memory);
+  if (is_usual) keep(memory);
   if (closing.edges.empty()) closing.edges = mapping::drive_edges(keyframes_, level, config);
   if (closing.moves) keyframes_ = mapping::moved(std::move(keyframes_), closing);
   for (std::size_t i = 0; closing.moves && i < poses_.size(); ++i)
@@ -63,6 +69,12 @@ mapping::SessionClosing ExtendedMap::close(const matching::MatcherConfig& config
   store_.write_graph(
       {store_.map_id(), store_.moves() + int{closing.moves}, keyframes_, closing.edges});
   return closing;
+}
+
+// They only save time, so a disk that is full costs nothing else.
+void ExtendedMap::keep(const mapping::LookMemory& memory) const try {
+  mapping::write_looks(folder_, store_.map_id(), keyframes_, memory);
+} catch (const io::FileError&) {
 }
 
 mapping::MapBuilder ExtendedMap::rebuilt() {

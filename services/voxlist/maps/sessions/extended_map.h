@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "services/voxlist/output/console.h"
+#include "voxlist/mapping/loops/look_memory.h"
 #include "voxlist/mapping/loops/session_closing.h"
 #include "voxlist/mapping/map_store.h"
 
@@ -33,8 +34,8 @@ class ExtendedMap {
   /// `T_odom_base`: odometry's pose at its time, if there was odometry.
   void append(const mapping::Keyframe& keyframe, const std::optional<Pose2>& T_odom_base);
 
-  /// Closes the loops of all sessions together, and writes where the keyframes stand. Throws
-  /// FileError.
+  /// Closes the loops of all sessions together, and writes where the keyframes stand. Looks that a
+  /// mapper or the session before took there are not taken again. Throws FileError.
   mapping::SessionClosing close(const matching::MatcherConfig& config);
 
   /// Makes the map anew with its keyframes where they stand.
@@ -44,6 +45,7 @@ class ExtendedMap {
   void take(mapping::Keyframe keyframe);
   mapping::Keyframe read(std::size_t keyframe);
   void recall(mapping::GraphPoses known);
+  void keep(const mapping::LookMemory& memory) const;
 
   const std::filesystem::path folder_;
   const mapping::MapBuilderConfig config_;
