@@ -86,6 +86,11 @@ std::string refusal(const MergeOptions& options, const Meeting& meeting) {
         "{} were not merged: the building repeats itself, {} of {} scans on ground of both fit "
         "elsewhere, too; a drive in both through 10 m that are like no other place would help",
         maps, meeting.twins, meeting.fitting);
+  if (meeting.vague > 0)
+    return fmt::format(
+        "{} were not merged: {} of {} scans on ground of both fit all along a corridor; a drive in "
+        "both through the same room would help",
+        maps, meeting.vague, meeting.fitting);
   const std::string fit = meeting.asked == 0 ? "no scan of the one was found in the other"
                                              : fmt::format("{} of {} scans on ground of both fit",
                                                            meeting.fitting, meeting.asked);

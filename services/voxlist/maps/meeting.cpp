@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "services/voxlist/maps/piece_closing.h"
 #include "services/voxlist/output/stop.h"
 #include "voxlist/mapping/loops/local_map.h"
+#include "voxlist/mapping/loops/neighbour_look.h"
 
 namespace voxlist::desk {
 namespace {
@@ -44,18 +46,22 @@ constexpr double kTwin = matching::kSureInReach;
 
 // What speaks for one place.
 struct Place {
-  Pose2 T_map_other;
+  Pose2 T_map_other{};
   std::size_t asked = 0;
   // T_map_base of each of the other's keyframes that fits.
   std::map<std::size_t, Pose2> fitting;
-  // Those of them that fit elsewhere in the map, too.
+  // Those of them that fit all along a corridor.
+  std::set<std::size_t> vague;
+  // Those that are not vague and fit elsewhere in the map, too.
   std::size_t twins = 0;
 
   bool enough() const { return are_enough(fitting.size()); }
 
   // Where what is seen is there twice, the building may well have it a third time outside the map:
-  // such scans speak for no place, though they are asked.
-  bool enough_without_twins() const { return are_enough(fitting.size() - twins); }
+  // such scans speak for no place, though they are asked. Vague ones speak for many.
+  bool enough_that_tell() const {
+    return are_enough(fitting.size() - twins) && fitting.size() - twins - vague.size() >= kFewest;
+  }
 
   bool are_enough(std::size_t scans) const {
     return scans >= kFewest &&
@@ -128,7 +134,8 @@ class Search {
   }
 
   Place look_into(const Pose2& T_map_other) {
-    Place place{T_map_other, 0, {}};
+    Place place;
+    place.T_map_other = T_map_other;
     for (const std::size_t i : asked_) {
       const Pose2 T_map_base = T_map_other * pose(other_, i);
       const Cloud cloud = level_cloud(spool_, other_.keyframes()[i]);
@@ -137,7 +144,10 @@ class Search {
       if (distance_m(pose(map_, round.front()), T_map_base) > kMeetsShare * scan.reach_m())
         continue;
       ++place.asked;
-      if (const auto fit = fitted(round, scan, T_map_base, kFits)) place.fitting.emplace(i, *fit);
+      const auto fit = fitted(round, scan, T_map_base, kFits);
+      if (!fit) continue;
+      place.fitting.emplace(i, fit->pose);
+      if (mapping::is_vague(*fit)) place.vague.insert(i);
     }
     return place;
   }
@@ -145,8 +155,9 @@ class Search {
   // Searches named the places that each scan may be at.
   std::size_t count_twins(const Place& place) {
     return static_cast<std::size_t>(
-        std::count_if(place.fitting.begin(), place.fitting.end(),
-                      [&](const auto& fit) { return has_twin(fit.first, fit.second); }));
+        std::count_if(place.fitting.begin(), place.fitting.end(), [&](const auto& fit) {
+          return !place.vague.contains(fit.first) && has_twin(fit.first, fit.second);
+        }));
   }
 
   bool has_twin(std::size_t keyframe, const Pose2& T_map_base) {
@@ -158,7 +169,7 @@ class Search {
     return std::any_of(named.begin(), end, [&](const Pose2& there) {
       if (is_same(there, T_map_base)) return false;
       const auto fit = fitted(map_round(there), scan, there, kTwin);
-      return fit && !is_same(*fit, T_map_base);
+      return fit && !is_same(fit->pose, T_map_base);
     });
   }
 
@@ -178,9 +189,9 @@ class Search {
     return taken;
   }
 
-  std::optional<Pose2> fitted(const std::vector<std::size_t>& round,
-                              const matching::PreparedScan& scan, const Pose2& T_map_base,
-                              double least) {
+  std::optional<UncertainPose> fitted(const std::vector<std::size_t>& round,
+                                      const matching::PreparedScan& scan, const Pose2& T_map_base,
+                                      double least) {
     const Pose2 T_map_local = pose(map_, round.front());
     mapping::LocalMap map(config_);
     for (const std::size_t i : round)
@@ -189,7 +200,8 @@ class Search {
     const auto found =
         map.match(scan, {T_map_local.inverse() * T_map_base, bent.cwiseAbs2().asDiagonal()});
     if (found.best() < least) return std::nullopt;
-    return T_map_local * found.match.modes.front().pose;
+    const matching::MatchMode& best = found.match.modes.front();
+    return UncertainPose{T_map_local} * UncertainPose{best.pose, best.covariance};
   }
 
   Meeting judge(std::vector<Place>& places) {
@@ -203,7 +215,8 @@ class Search {
     });
     if (!best->enough() || meeting.alike) return meeting;
     meeting.twins = best->twins = count_twins(*best);
-    if (best->enough_without_twins()) meeting.T_map_other = best->T_map_other;
+    meeting.vague = best->vague.size();
+    if (best->enough_that_tell()) meeting.T_map_other = best->T_map_other;
     return meeting;
   }
 
