@@ -54,9 +54,13 @@ class Depth {
     const float range_m = grid_.range_m(cell), step_m = rule_.most_m(0.0F, range_m);
     if (wheels_m_ - point.z() <= step_m) return false;
     const auto level_m = between(point.head<2>());
-    return (level_m && *level_m - point.z() > step_m + tilt_m(range_m)) ||
+    return (level_m && lower_of(*level_m) - point.z() > step_m + tilt_m(range_m)) ||
            is_below(point.z(), cell);
   }
+
+  // A floor's level, or the wheels': the foot of a wall may be taken for floor that rises, and
+  // makes nothing before it deeper.
+  float lower_of(float floor_m) const { return std::min(floor_m, wheels_m_); }
 
  private:
   bool is_below(float z_m, std::size_t cell) const {
@@ -95,7 +99,7 @@ class Depth {
 
   bool is_below(float z_m, float floor_m, float away_m, std::size_t cell) const {
     const float range_m = grid_.range_m(cell);
-    return floor_m - z_m > rule_.most_m(away_m, range_m) + tilt_m(range_m);
+    return lower_of(floor_m) - z_m > rule_.most_m(away_m, range_m) + tilt_m(range_m);
   }
 
   const LocalGrid& grid_;
@@ -138,7 +142,8 @@ std::vector<TypedPoint> find_drops(const LocalGrid& grid, const std::vector<Ray>
     if (!cell) continue;
     const bool in_line = depth.is_drop_in_line(ray, *cell);
     if (!in_line && (ray.utime_us > until_us || !depth.is_drop(ray.point, *cell))) continue;
-    const float level_m = in_line ? ray.point.z() + ray.drop.below_m : ground.height_m[*cell];
+    const float level_m =
+        in_line ? ray.point.z() + ray.drop.below_m : depth.lower_of(ground.height_m[*cell]);
     if (ray.origin.z() <= level_m) continue;
     const Eigen::Vector3f place = crossing(ray, level_m);
     const auto from = grid.at(place.head<2>());
