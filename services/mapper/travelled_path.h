@@ -14,8 +14,8 @@ namespace voxlist::services {
 /// keyframes'.
 class TravelledPath {
  public:
-  /// Newest poses that are all kept: an hour at 10 Hz, 2 MB.
-  static constexpr std::size_t kNewest = 36'000;
+  /// Newest poses that are all kept: 17 minutes at 10 Hz, 0.6 MB.
+  static constexpr std::size_t kNewest = 10'000;
 
   /// A keyframe of before, or one that got its place later than those after it.
   void restore(const StampedPose3& keyframe) { old_keyframes_.push_back(keyframe); }

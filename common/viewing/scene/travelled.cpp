@@ -1,5 +1,6 @@
 #include "voxlist/viewing/scene/travelled.h"
 
+#include <algorithm>
 #include <cstring>
 #include <utility>
 
@@ -13,10 +14,21 @@ constexpr double kStep_m = 0.1;
 // A pose that jumps so far was corrected: the robot did not drive there.
 constexpr double kJump_m = 1.0;
 
+// A full piece leaves out points that lie so near to the straight way past them: nobody sees them.
+constexpr float kStraight_m = 0.02F;
+
 std::string topic_name(std::int64_t number) { return "path/" + std::to_string(number); }
 
 std::string first_as_json(std::int64_t first) {
   return "{\"first\":" + std::to_string(first) + "}";
+}
+
+float distance_to_line(const Eigen::Vector3f& point, const Eigen::Vector3f& from,
+                       const Eigen::Vector3f& to) {
+  const Eigen::Vector3f along = to - from;
+  const float length2 = along.squaredNorm();
+  const float part = length2 > 0.0F ? std::clamp(along.dot(point - from) / length2, 0.0F, 1.0F) : 0;
+  return (from + part * along - point).norm();
 }
 
 }  // namespace
@@ -48,10 +60,47 @@ void Travelled::move(std::size_t keyframe, const Pose3& T_map_base, std::int64_t
   }
 }
 
+// The point farthest from the line between the ends is needed where it is far, and so on to both
+// sides of it. A point that begins a way is needed, and so is the one before it.
+void Travelled::mark_needed(const Piece& piece, std::size_t from, std::size_t to,
+                            std::vector<bool>& is_needed) {
+  is_needed[from] = is_needed[to] = true;
+  float farthest_m = kStraight_m;
+  std::size_t farthest = to;
+  for (std::size_t i = from + 1; i < to; ++i) {
+    const float distance_m =
+        distance_to_line(piece[i].position, piece[from].position, piece[to].position);
+    if (distance_m > farthest_m) {
+      farthest_m = distance_m;
+      farthest = i;
+    }
+  }
+  if (farthest == to) return;
+  mark_needed(piece, from, farthest, is_needed);
+  mark_needed(piece, farthest, to, is_needed);
+}
+
+Travelled::Piece Travelled::thinned(const Piece& piece) {
+  std::vector<bool> is_needed(piece.size());
+  std::size_t from = 0;
+  for (std::size_t i = 1; i <= piece.size(); ++i) {
+    if (i < piece.size() && !piece[i].begins) continue;
+    mark_needed(piece, from, i - 1, is_needed);
+    from = i;
+  }
+  Piece thin;
+  for (std::size_t i = 0; i < piece.size(); ++i)
+    if (is_needed[i]) thin.push_back(piece[i]);
+  thin.shrink_to_fit();
+  return thin;
+}
+
 // A new topic begins with the last point, so that pieces meet.
 void Travelled::begin_piece(std::int64_t now_us, Board& board) {
   Point last = pieces_.back().back();
   last.begins = true;
+  pieces_.back() = thinned(pieces_.back());
+  put(pieces_.size() - 1, now_us, board);
   pieces_.push_back({last});
   if (pieces_.size() <= kMostTopics) return;
   pieces_.pop_front();

@@ -13,8 +13,9 @@ namespace voxlist::viewing {
 class Board;
 
 /// The way of the robot, on topics "path/0", "path/1", ... of kPointsEach points: only the newest
-/// topic changes while it grows. Topic "path" tells the first that counts. Each point stands beside
-/// a keyframe, and moves with it.
+/// topic changes while it grows; a full one keeps the points without which its way would look
+/// another. Topic "path" tells the first that counts. Each point stands beside a keyframe, and
+/// moves with it.
 class Travelled {
  public:
   static constexpr std::size_t kPointsEach = 64;
@@ -43,6 +44,9 @@ class Travelled {
   };
   using Piece = std::vector<Point>;
 
+  static void mark_needed(const Piece& piece, std::size_t from, std::size_t to,
+                          std::vector<bool>& is_needed);
+  static Piece thinned(const Piece& piece);
   void put(std::size_t piece, std::int64_t now_us, Board& board) const;
   void begin_piece(std::int64_t now_us, Board& board);
 

@@ -113,11 +113,34 @@ TEST(RobotScene, PlacesASliceAtAPoseOfItsTimeOnly) {
   EXPECT_EQ(data(scene, "slice/0").at("pose").at(0), 3.0);
 }
 
+std::vector<float> path_of(const RobotScene& scene, const std::string& topic) {
+  const auto& bytes = find(scene, topic)->bytes;
+  std::vector<float> values(bytes.size() / sizeof(float));
+  std::memcpy(values.data(), bytes.data(), bytes.size());
+  return values;
+}
+
 TEST(RobotScene, KeepsThePathInPiecesOfWhichOneGrows) {
   RobotScene scene(100);
-  for (int i = 0; i < 100; ++i) scene.take(pose(0.2 * i, i + 1), 0);
+  for (int i = 0; i < 64; ++i) scene.take(pose(0.2 * i, i + 1), 0);
   EXPECT_EQ(find(scene, "path/0")->bytes.size(), 64U * 16);
+  for (int i = 64; i < 100; ++i) scene.take(pose(0.2 * i, i + 1), 0);
   EXPECT_EQ(find(scene, "path/1")->bytes.size(), (100U - 64 + 1) * 16);
+}
+
+TEST(RobotScene, KeepsOfAFullPieceOfThePathItsBends) {
+  RobotScene scene(100);
+  // To x = 6.2 m and back, and on at x = 1009.6 m.
+  for (int i = 0; i < 32; ++i) scene.take(pose(0.2 * i, i + 1), 0);
+  for (int i = 32; i < 48; ++i) scene.take(pose(0.2 * (62 - i), i + 1), 0);
+  for (int i = 48; i < 65; ++i) scene.take(pose(1000.0 + 0.2 * i, i + 1), 0);
+  const std::vector<float> path = path_of(scene, "path/0");
+  std::vector<std::pair<float, bool>> x_and_begins;
+  for (std::size_t i = 0; i < path.size(); i += 4)
+    x_and_begins.push_back({path[i], path[i + 3] != 0.0F});
+  EXPECT_EQ(x_and_begins,
+            (std::vector<std::pair<float, bool>>{
+                {0.0F, true}, {6.2F, false}, {3.0F, false}, {1009.6F, true}, {1012.6F, false}}));
 }
 
 TEST(RobotScene, AddsNothingToThePathOfARobotThatStands) {
@@ -143,13 +166,6 @@ keyframe_t keyframe(std::int32_t index, double x_m, double y_m) {
   message.trans[1] = y_m;
   message.quat[0] = 1.0;
   return message;
-}
-
-std::vector<float> path_of(const RobotScene& scene, const std::string& topic) {
-  const auto& bytes = find(scene, topic)->bytes;
-  std::vector<float> values(bytes.size() / sizeof(float));
-  std::memcpy(values.data(), bytes.data(), bytes.size());
-  return values;
 }
 
 TEST(RobotScene, MovesThePathWithTheKeyframesBesideIt) {
