@@ -15,7 +15,9 @@ constexpr double kStep_m = 0.1;
 constexpr double kJump_m = 1.0;
 
 // A full piece leaves out points that lie so near to the straight way past them: nobody sees them.
+// It goes on while it holds no more points than kMostKept after that.
 constexpr float kStraight_m = 0.02F;
+constexpr std::size_t kMostKept = Travelled::kPointsEach * 3 / 4;
 
 std::string topic_name(std::int64_t number) { return "path/" + std::to_string(number); }
 
@@ -37,7 +39,10 @@ void Travelled::add(const Eigen::Vector3d& position, KeyframePoses& keyframes, s
                     Board& board) {
   const double step_m = last_ ? (position - *last_).norm() : kStep_m;
   if (step_m < kStep_m) return;
-  if (pieces_.back().size() == kPointsEach) begin_piece(now_us, board);
+  if (pieces_.back().size() == kPointsEach) {
+    thin(pieces_.back());
+    if (pieces_.back().size() > kMostKept) begin_piece(now_us, board);
+  }
   Point point{position.cast<float>(), begins_ || step_m > kJump_m, keyframes.near(position), {}};
   if (point.keyframe)
     point.in_keyframe = (keyframes.pose(*point.keyframe).inverse() * position).eval().cast<float>();
@@ -80,28 +85,30 @@ void Travelled::mark_needed(const Piece& piece, std::size_t from, std::size_t to
   mark_needed(piece, farthest, to, is_needed);
 }
 
-Travelled::Piece Travelled::thinned(const Piece& piece) {
+// What was thinned before stays as it is: what is left out of each part lies within kStraight_m.
+void Travelled::thin(Piece& piece) {
   std::vector<bool> is_needed(piece.size());
-  std::size_t from = 0;
-  for (std::size_t i = 1; i <= piece.size(); ++i) {
+  std::fill_n(is_needed.begin(), thinned_, true);
+  std::size_t from = thinned_ == 0 ? 0 : thinned_ - 1;
+  for (std::size_t i = from + 1; i <= piece.size(); ++i) {
     if (i < piece.size() && !piece[i].begins) continue;
     mark_needed(piece, from, i - 1, is_needed);
     from = i;
   }
-  Piece thin;
+  std::size_t kept = 0;
   for (std::size_t i = 0; i < piece.size(); ++i)
-    if (is_needed[i]) thin.push_back(piece[i]);
-  thin.shrink_to_fit();
-  return thin;
+    if (is_needed[i]) piece[kept++] = piece[i];
+  piece.resize(kept);
+  thinned_ = kept;
 }
 
 // A new topic begins with the last point, so that pieces meet.
 void Travelled::begin_piece(std::int64_t now_us, Board& board) {
   Point last = pieces_.back().back();
   last.begins = true;
-  pieces_.back() = thinned(pieces_.back());
   put(pieces_.size() - 1, now_us, board);
   pieces_.push_back({last});
+  thinned_ = 1;
   if (pieces_.size() <= kMostTopics) return;
   pieces_.pop_front();
   board.drop(topic_name(first_));
@@ -123,6 +130,7 @@ void Travelled::start_over(std::int64_t now_us, Board& board) {
   board.drop("path/");
   first_ += static_cast<std::int64_t>(pieces_.size());
   pieces_ = std::deque<Piece>(1);
+  thinned_ = 0;
   last_.reset();
   begins_ = true;
   board.put("path", first_as_json(first_), now_us);

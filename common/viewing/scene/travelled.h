@@ -12,15 +12,16 @@ namespace voxlist::viewing {
 
 class Board;
 
-/// The way of the robot, on topics "path/0", "path/1", ... of kPointsEach points: only the newest
-/// topic changes while it grows; a full one keeps the points without which its way would look
-/// another. Topic "path" tells the first that counts. Each point stands beside a keyframe, and
-/// moves with it.
+/// The way of the robot, on topics "path/0", "path/1", ... of kPointsEach points at most: only the
+/// newest topic changes while it grows. Points 0.1 m apart are added; when they are too many, those
+/// go without which the way looks the same. Topic "path" tells the first that counts. Each point
+/// stands beside a keyframe, and moves with it.
 class Travelled {
  public:
   static constexpr std::size_t kPointsEach = 64;
-  /// Topics that are kept: at 0.1 m between points the last 6 km.
-  static constexpr std::size_t kMostTopics = 1000;
+  /// Topics that are kept, 1 MB: the last 1.2 km of a way that bends all the time, and the last 12
+  /// km of one that does so each metre.
+  static constexpr std::size_t kMostTopics = 250;
 
   /// Adds a point of the map (m) where it is 0.1 m from the last one.
   void add(const Eigen::Vector3d& position, KeyframePoses& keyframes, std::int64_t now_us,
@@ -46,11 +47,12 @@ class Travelled {
 
   static void mark_needed(const Piece& piece, std::size_t from, std::size_t to,
                           std::vector<bool>& is_needed);
-  static Piece thinned(const Piece& piece);
+  void thin(Piece& piece);
   void put(std::size_t piece, std::int64_t now_us, Board& board) const;
   void begin_piece(std::int64_t now_us, Board& board);
 
   std::deque<Piece> pieces_ = std::deque<Piece>(1);  // one for each topic from first_ on
+  std::size_t thinned_ = 0;                          // points of the last piece that stay
   std::int64_t first_ = 0;
   std::optional<Eigen::Vector3d> last_;
   bool begins_ = true;

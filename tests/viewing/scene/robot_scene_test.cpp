@@ -122,15 +122,15 @@ std::vector<float> path_of(const RobotScene& scene, const std::string& topic) {
 
 TEST(RobotScene, KeepsThePathInPiecesOfWhichOneGrows) {
   RobotScene scene(100);
-  for (int i = 0; i < 64; ++i) scene.take(pose(0.2 * i, i + 1), 0);
+  // To and fro, farther each time: each point is needed.
+  for (int i = 0; i < 100; ++i) scene.take(pose(i % 2 == 0 ? 0.2 * i : -0.2 * i, i + 1), 0);
   EXPECT_EQ(find(scene, "path/0")->bytes.size(), 64U * 16);
-  for (int i = 64; i < 100; ++i) scene.take(pose(0.2 * i, i + 1), 0);
   EXPECT_EQ(find(scene, "path/1")->bytes.size(), (100U - 64 + 1) * 16);
 }
 
-TEST(RobotScene, KeepsOfAFullPieceOfThePathItsBends) {
+TEST(RobotScene, KeepsTheBendsOfALongPath) {
   RobotScene scene(100);
-  // To x = 6.2 m and back, and on at x = 1009.6 m.
+  // To x = 6.2 m and back to 3 m, and on from x = 1009.6 m.
   for (int i = 0; i < 32; ++i) scene.take(pose(0.2 * i, i + 1), 0);
   for (int i = 32; i < 48; ++i) scene.take(pose(0.2 * (62 - i), i + 1), 0);
   for (int i = 48; i < 65; ++i) scene.take(pose(1000.0 + 0.2 * i, i + 1), 0);
@@ -138,9 +138,19 @@ TEST(RobotScene, KeepsOfAFullPieceOfThePathItsBends) {
   std::vector<std::pair<float, bool>> x_and_begins;
   for (std::size_t i = 0; i < path.size(); i += 4)
     x_and_begins.push_back({path[i], path[i + 3] != 0.0F});
-  EXPECT_EQ(x_and_begins,
-            (std::vector<std::pair<float, bool>>{
-                {0.0F, true}, {6.2F, false}, {3.0F, false}, {1009.6F, true}, {1012.6F, false}}));
+  EXPECT_EQ(x_and_begins, (std::vector<std::pair<float, bool>>{{0.0F, true},
+                                                               {6.2F, false},
+                                                               {3.0F, false},
+                                                               {1009.6F, true},
+                                                               {1012.6F, false},
+                                                               {1012.8F, false}}));
+}
+
+TEST(RobotScene, TellsALongStraightPathInFewPoints) {
+  RobotScene scene(100);
+  for (int i = 0; i < 1000; ++i) scene.take(pose(0.2 * i, i + 1), 0);
+  EXPECT_LE(find(scene, "path/0")->bytes.size(), 64U * 16);
+  EXPECT_EQ(find(scene, "path/1"), nullptr);
 }
 
 TEST(RobotScene, AddsNothingToThePathOfARobotThatStands) {
