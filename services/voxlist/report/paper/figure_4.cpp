@@ -120,30 +120,69 @@ std::string cluster(const TraceLevel& level, const Pose2& truth) {
   return chart.svg();
 }
 
+// The same scans, asked of the filter in its map, and of the engine in Voxlist's and in a true one.
+struct Asked {
+  std::vector<std::vector<TraceLevel>> traces;  // the filter's way down the levels, of each scan
+  Answers last, eight;                          // the filter's at 0.02 m and at 0.08 m
+  Answers ours, exact;                          // the engine's in Voxlist's map and in the true one
+
+  // The scan that the filter finds best.
+  std::size_t best() const {
+    return static_cast<std::size_t>(std::ranges::min_element(last.off_m) - last.off_m.begin());
+  }
+};
+
+Asked ask(const OccupancyMap& of_filter, const OccupancyMap& of_voxlist, const OccupancyMap& truth,
+          const std::vector<PlacedScan>& queries) {
+  Asked asked;
+  asked.traces.resize(queries.size());
+  const std::vector<PlacedScan> bands = without_floor(queries);
+  const matching::ParticleFilter filter(of_filter.occupied);
+  tbb::parallel_for(std::size_t{0}, queries.size(), [&](std::size_t i) {
+    asked.traces[i] = trace(filter, bands[i].cloud.points, matching::whole_map(of_filter.occupied));
+  });
+  const auto matcher = matching::make_matcher(of_voxlist, {});
+  const auto exact_matcher = matching::make_matcher(truth, {});
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    asked.last.add(asked.traces[i].back().best, queries[i].truth);
+    asked.eight.add(asked.traces[i][4].best, queries[i].truth);
+    asked.ours.add(found_by(*matcher, queries[i].cloud), queries[i].truth);
+    asked.exact.add(found_by(*exact_matcher, queries[i].cloud), queries[i].truth);
+  }
+  return asked;
+}
+
+std::vector<Comparison> comparisons(const Asked& asked, const MatchedMap& made,
+                                    const MatchedMap& ours_made) {
+  const std::size_t shown = asked.best();
+  return {{"position of the scan shown", "+-0.02 m", metres(asked.last.off_m[shown]),
+           "by the filter; the one that it finds best"},
+          {"its heading", "sub-degree", in_degrees(asked.last.off_rad[shown]), "by the filter"},
+          {"filter to 0.02 m: within 0.02 m and 1 deg", "not said",
+           asked.last.within(kPaper_m, kPaper_rad)},
+          {"filter to 0.02 m: right place (0.5 m)", "not said",
+           asked.last.within(0.5, 10 * kPaper_rad)},
+          {"filter stopped at 0.08 m: right place", "not said",
+           asked.eight.within(0.5, 10 * kPaper_rad)},
+          {"engine: within 0.02 m and 1 deg", "not said", asked.ours.within(kPaper_m, kPaper_rad)},
+          {"engine: median error", "0.02 m", millimetres(percentile(asked.ours.off_m, 0.5)),
+           in_degrees(percentile(asked.ours.off_rad, 0.5))},
+          {"engine, map at true poses: within 0.02 m and 1 deg", "not said",
+           asked.exact.within(kPaper_m, kPaper_rad), "the same 20 scans"},
+          {"scans of the filter's map are off by, mean", "not said",
+           metres(moments(made.errors_m).mean), "its answers hold that, too"},
+          {"scans of Voxlist's map are off by, mean", "not said",
+           metres(moments(ours_made.errors_m).mean)}};
+}
+
 }  // namespace
 
 Entry figure_4(const Scene& scene) {
   const MatchedMap made = map_by_filter(without_floor(scene.tour()), kMapFactor, scene.seed());
   const MatchedMap ours_made = map_by_localiser(scene.tour(), scene.seed());
   const std::vector<PlacedScan> queries = scene.queries(scene.scale().queries);
-  const std::vector<PlacedScan> bands = without_floor(queries);
-  const matching::ParticleFilter filter(made.map.occupied);
-  std::vector<std::vector<TraceLevel>> traces(queries.size());
-  tbb::parallel_for(std::size_t{0}, queries.size(), [&](std::size_t i) {
-    traces[i] = trace(filter, bands[i].cloud.points, matching::whole_map(made.map.occupied));
-  });
-  const auto matcher = matching::make_matcher(ours_made.map, {});
-  const auto exact_matcher = matching::make_matcher(scene.map(), {});
-  Answers last, eight, ours, exact;
-  for (std::size_t i = 0; i < queries.size(); ++i) {
-    last.add(traces[i].back().best, queries[i].truth);
-    eight.add(traces[i][4].best, queries[i].truth);
-    ours.add(found_by(*matcher, queries[i].cloud), queries[i].truth);
-    exact.add(found_by(*exact_matcher, queries[i].cloud), queries[i].truth);
-  }
-  // The picture is of the scan that the filter finds best.
-  const auto shown =
-      static_cast<std::size_t>(std::ranges::min_element(last.off_m) - last.off_m.begin());
+  const Asked asked = ask(made.map, ours_made.map, scene.map(), queries);
+  const std::size_t shown = asked.best();
   Entry entry;
   entry.paper =
       "\"Distribution of best orientation poses with w > 0.8 w max as a function of 2D position\": "
@@ -151,40 +190,21 @@ Entry figure_4(const Scene& scene) {
       "\"Localisation to +-0.02 m and sub-degree error\" (section VI).";
   entry.setup = fmt::format(
       "Four simulated rooms off a corridor. The paper's filter builds the map of 20 scans of a "
-      "tour, "
-      "from odometry of 0.05 m and 1 deg a step, at the 0.08 m that the paper found best, and "
-      "finds "
-      "{} more scans in it without a guess, down to 0.02 m; it is given what lies between 0.15 and "
-      "2.45 m, for with floor and ceiling its map goes astray (see the best resolution). Voxlist "
-      "builds its own map of the same 20 scans, whole, and finds the same scans in that.",
+      "tour, from odometry of 0.05 m and 1 deg a step, at the 0.08 m that the paper found best, "
+      "and finds {} more scans in it without a guess, down to 0.02 m; it is given what lies "
+      "between 0.15 and 2.45 m, for with floor and ceiling its map goes astray (see the best "
+      "resolution). Voxlist builds its own map of the same 20 scans, whole, and finds the same "
+      "scans in that.",
       queries.size());
-  entry.comparisons = {
-      {"position of the scan shown", "+-0.02 m", metres(last.off_m[shown]),
-       "by the filter; the one that it finds best"},
-      {"its heading", "sub-degree", in_degrees(last.off_rad[shown]), "by the filter"},
-      {"filter to 0.02 m: within 0.02 m and 1 deg", "not said", last.within(kPaper_m, kPaper_rad)},
-      {"filter to 0.02 m: right place (0.5 m)", "not said", last.within(0.5, 10 * kPaper_rad)},
-      {"filter stopped at 0.08 m: right place", "not said", eight.within(0.5, 10 * kPaper_rad)},
-      {"engine: within 0.02 m and 1 deg", "not said", ours.within(kPaper_m, kPaper_rad)},
-      {"engine: median error", "0.02 m", millimetres(percentile(ours.off_m, 0.5)),
-       in_degrees(percentile(ours.off_rad, 0.5))},
-      {"engine, map at true poses: within 0.02 m and 1 deg", "not said",
-       exact.within(kPaper_m, kPaper_rad), "the same 20 scans"},
-      {"scans of the filter's map are off by, mean", "not said",
-       metres(moments(made.errors_m).mean), "its answers hold that, too"},
-      {"scans of Voxlist's map are off by, mean", "not said",
-       metres(moments(ours_made.errors_m).mean)}};
-  entry.panels = {{distribution(made.map.occupied, queries[shown], traces[shown]),
+  entry.comparisons = comparisons(asked, made, ours_made);
+  entry.panels = {{distribution(made.map.occupied, queries[shown], asked.traces[shown]),
                    "The cluster of sticks at the last level is the solution."},
-                  {cluster(traces[shown].back(), queries[shown].truth)}};
+                  {cluster(asked.traces[shown].back(), queries[shown].truth)}};
   entry.differs =
       "Truth is known here: errors are those in the building, so that they hold what the map is "
-      "off by, "
-      "which the paper's need not. The filter's answers keep the paper's limits seldom or never, "
-      "for its map "
-      "does not. In a map at true poses the engine is a millimetre off: what is "
-      "left "
-      "of its error above is its map's.";
+      "off by, which the paper's need not. The filter's answers keep the paper's limits seldom or "
+      "never, for its map does not. In a map at true poses the engine is a millimetre off: what is "
+      "left of its error above is its map's.";
   return entry;
 }
 

@@ -93,33 +93,85 @@ std::string histogram_of(const ChanceLevel& level) {
       .svg();
 }
 
-}  // namespace
+// What the engine says of each scan by itself.
+struct EngineAnswers {
+  std::vector<double> off_m;  // of those at the right place
+  int claimed = 0, wrong = 0;
+  Pose2 first;  // the first scan's, or its truth where it is not at the right place
+};
 
-Entry real_scans(const std::filesystem::path& folder, const Scene& scene) {
-  const Recorded recorded = read(folder, std::min(kMostQueries, scene.scale().queries));
+EngineAnswers ask_engine(const Recorded& recorded) {
   matching::LocaliserConfig config;
   config.threads = 1;
   matching::Localiser localiser(recorded.map, config);
-  std::vector<double> off_m;
-  int found_right = 0, claimed = 0, wrong = 0;
-  Pose2 shown = recorded.queries.front().truth;
+  EngineAnswers answers;
+  answers.first = recorded.queries.front().truth;
   for (const PlacedScan& query : recorded.queries) {
     const matching::Localisation found = localiser.locate(query.cloud);
     const bool is_right =
         !found.modes.empty() && right(found.modes.front().T_map_base, query.truth);
-    found_right += is_right;
-    claimed += found.tracking();
-    wrong += found.tracking() && !is_right;
-    if (is_right) off_m.push_back(distance_m(found.modes.front().T_map_base, query.truth));
-    if (&query == &recorded.queries.front() && is_right) shown = found.modes.front().T_map_base;
+    answers.claimed += found.tracking();
+    answers.wrong += found.tracking() && !is_right;
+    if (!is_right) continue;
+    answers.off_m.push_back(distance_m(found.modes.front().T_map_base, query.truth));
+    if (&query == &recorded.queries.front()) answers.first = found.modes.front().T_map_base;
   }
-  const auto asked = std::min<std::size_t>(kFilterQueries, recorded.queries.size());
+  return answers;
+}
+
+// The filter's way down the levels, for the first few scans.
+std::vector<std::vector<TraceLevel>> ask_filter(const Recorded& recorded) {
+  std::vector<std::vector<TraceLevel>> traces(
+      std::min<std::size_t>(kFilterQueries, recorded.queries.size()));
   const matching::ParticleFilter filter(recorded.map.occupied);
-  std::vector<std::vector<TraceLevel>> traces(asked);
-  tbb::parallel_for(std::size_t{0}, asked, [&](std::size_t i) {
+  tbb::parallel_for(std::size_t{0}, traces.size(), [&](std::size_t i) {
     traces[i] =
         trace(filter, recorded.queries[i].cloud.points, matching::whole_map(recorded.map.occupied));
   });
+  return traces;
+}
+
+Table table_by_level(const Recorded& recorded, const std::vector<std::vector<TraceLevel>>& traces) {
+  Table table{fmt::format("The filter, by the level at which it stops ({} scans)", traces.size()),
+              {"eps (m)", "right", "error of the first scan", "particles of the first scan",
+               "CPU s of the first scan"},
+              {}};
+  for (std::size_t k = 0; k < traces.front().size(); ++k) {
+    int count = 0;
+    for (std::size_t i = 0; i < traces.size(); ++i)
+      count += right(traces[i][k].best, recorded.queries[i].truth);
+    const TraceLevel& first = traces.front()[k];
+    table.rows.push_back({fmt::format("{:.2f}", first.lattice.resolution_m()),
+                          fmt::format("{} of {}", count, traces.size()),
+                          metres(distance_m(first.best, recorded.queries.front().truth)),
+                          fmt::format("{}", first.weighed),
+                          timed(fmt::format("{:.2f}", first.seconds))});
+  }
+  return table;
+}
+
+Table table_of_chance(const std::vector<ChanceLevel>& levels) {
+  Table table{
+      "Overlaps at wrong poses",
+      {"eps (m)", "mean, eq. 4", "measured", "sd, eq. 5", "measured", "D from its own normal"},
+      {}};
+  for (const ChanceLevel& level : levels) {
+    const Moments own = moments(level.overlaps);
+    table.rows.push_back({fmt::format("{:.2f}", level.resolution_m),
+                          fmt::format("{:.1f}", matching::overlap_mean(level.model)),
+                          fmt::format("{:.1f}", own.mean),
+                          fmt::format("{:.2f}", std::sqrt(matching::overlap_variance(level.model))),
+                          fmt::format("{:.2f}", own.sd),
+                          fmt::format("{:.3f}", distance_from_normal(level.overlaps, own))});
+  }
+  return table;
+}
+
+}  // namespace
+
+Entry real_scans(const std::filesystem::path& folder, const Scene& scene) {
+  const Recorded recorded = read(folder, std::min(kMostQueries, scene.scale().queries));
+  const EngineAnswers engine = ask_engine(recorded);
   const auto levels = wrong_overlaps(recorded.map.occupied, recorded.queries.front(),
                                      scene.scale().wrong_poses, scene.seed());
   Entry entry;
@@ -131,40 +183,13 @@ Entry real_scans(const std::filesystem::path& folder, const Scene& scene) {
       recorded.name, kMapScans, recorded.queries.size());
   entry.comparisons = {
       {"engine: right place", "not said",
-       fmt::format("{} of {}", found_right, recorded.queries.size())},
-      {"engine: median error of those", "0.02 m", millimetres(percentile(off_m, 0.5))},
-      {"claimed, and wrong of them", "not said", fmt::format("{}, {}", claimed, wrong)}};
-  Table by_level{fmt::format("The filter, by the level at which it stops ({} scans)", asked),
-                 {"eps (m)", "right", "error of the first scan", "particles of the first scan",
-                  "CPU s of the first scan"},
-                 {}};
-  for (std::size_t k = 0; k < traces.front().size(); ++k) {
-    int count = 0;
-    for (std::size_t i = 0; i < asked; ++i)
-      count += right(traces[i][k].best, recorded.queries[i].truth);
-    const TraceLevel& first = traces.front()[k];
-    by_level.rows.push_back(
-        {fmt::format("{:.2f}", first.lattice.resolution_m()), fmt::format("{} of {}", count, asked),
-         metres(distance_m(first.best, recorded.queries.front().truth)),
-         fmt::format("{}", first.weighed), timed(fmt::format("{:.2f}", first.seconds))});
-  }
-  Table chance{
-      "Overlaps at wrong poses",
-      {"eps (m)", "mean, eq. 4", "measured", "sd, eq. 5", "measured", "D from its own normal"},
-      {}};
-  entry.panels = {{picture(recorded, recorded.queries.front(), shown)}};
-  for (const ChanceLevel& level : levels) {
-    const Moments own = moments(level.overlaps);
-    entry.panels.push_back({histogram_of(level)});
-    chance.rows.push_back(
-        {fmt::format("{:.2f}", level.resolution_m),
-         fmt::format("{:.1f}", matching::overlap_mean(level.model)),
-         fmt::format("{:.1f}", own.mean),
-         fmt::format("{:.2f}", std::sqrt(matching::overlap_variance(level.model))),
-         fmt::format("{:.2f}", own.sd),
-         fmt::format("{:.3f}", distance_from_normal(level.overlaps, own))});
-  }
-  entry.tables = {by_level, chance};
+       fmt::format("{} of {}", engine.off_m.size(), recorded.queries.size())},
+      {"engine: median error of those", "0.02 m", millimetres(percentile(engine.off_m, 0.5))},
+      {"claimed, and wrong of them", "not said",
+       fmt::format("{}, {}", engine.claimed, engine.wrong)}};
+  entry.panels = {{picture(recorded, recorded.queries.front(), engine.first)}};
+  for (const ChanceLevel& level : levels) entry.panels.push_back({histogram_of(level)});
+  entry.tables = {table_by_level(recorded, ask_filter(recorded)), table_of_chance(levels)};
   entry.differs =
       "Another laser and a hall instead of rooms: it sees farther, so equation 1 asks for more "
       "headings, and the filter weighs many more particles. Section V and Figs. 7 and 8 "
