@@ -15,9 +15,10 @@ constexpr float kChange_m = 0.06F, kRelativeChange = 0.07F;
 // deg.
 constexpr std::size_t kTurned_beams = 3;
 
-// Two lines with fewer beams to compare say nothing. They differ when more than this share of the
-// beams changed: people who walk by change fewer.
+// Two lines with fewer beams to compare say nothing.
 constexpr int kMinReturns = 20;
+
+// The mirror turns when more than this share of the beams changed: people who walk by change fewer.
 constexpr double kMovingShare = 0.25;
 
 // Lines that are kept to compare with: a second of them, more than the longest lag.
@@ -27,10 +28,10 @@ constexpr std::size_t kMaxLines = 80;
 // three passages nothing is known.
 constexpr std::size_t kPassages = 8, kMinPassages = 3;
 
-// Stillness is more than normal when it is longer by this factor and this time (us). A smaller
-// margin risks to tell a stall that is none; a larger one tells a stall later (within 0.4 s in a
-// room now).
-constexpr double kFactor = 1.3, kMargin_us = 80'000.0;
+// Stillness is more than normal when it is longer by this factor and this time (us). In seven hours
+// of driving through three buildings a mirror that turned needed 89'000 us; more would tell a stall
+// later.
+constexpr double kFactor = 1.3, kMargin_us = 100'000.0;
 
 // Time without lines is no stillness. A line speaks for the time since the one before it, but for
 // no longer than two lines take (us); in a hole longer than kMaxGap_us nobody saw what happened.
@@ -54,7 +55,7 @@ Envelope envelope(const std::vector<float>& ranges_m, std::size_t beam) {
   return result;
 }
 
-LineMotion::Seen compare(const LaserLine& now, const LaserLine& before) {
+std::optional<double> compare(const LaserLine& now, const LaserLine& before) {
   int returns = 0, changed = 0;
   for (std::size_t i = 0; i < now.ranges_m.size(); ++i) {
     const float range_m = now.ranges_m[i];
@@ -65,13 +66,20 @@ LineMotion::Seen compare(const LaserLine& now, const LaserLine& before) {
     const float slack_m = kChange_m + kRelativeChange * std::min(range_m, was.near_m);
     changed += range_m < was.near_m - slack_m || range_m > was.far_m + slack_m;
   }
-  if (returns < kMinReturns) return LineMotion::Seen::kNothing;
-  return changed > kMovingShare * returns ? LineMotion::Seen::kMoving : LineMotion::Seen::kStill;
+  if (returns < kMinReturns) return std::nullopt;
+  return static_cast<double>(changed) / returns;
+}
+
+// How much a line's time counts as stillness: nearly whole for a robot that turns on the spot under
+// a mirror that stands, and little where a mirror that turns changes nearly enough.
+double stillness(double changed_share) {
+  const double part = changed_share / kMovingShare;
+  return 1.0 - part * part * part;
 }
 
 }  // namespace
 
-LineMotion::Seen LineMotion::add(const LaserLine& line, double lag_us) {
+std::optional<double> LineMotion::add(const LaserLine& line, double lag_us) {
   const LaserLine* best = nullptr;
   double best_off_us = 0.3 * lag_us;
   for (const LaserLine& earlier : lines_) {
@@ -82,13 +90,13 @@ LineMotion::Seen LineMotion::add(const LaserLine& line, double lag_us) {
     best = &earlier;
     best_off_us = std::abs(lag - lag_us);
   }
-  const Seen seen = best == nullptr ? Seen::kNothing : compare(line, *best);
+  const auto changed = best == nullptr ? std::nullopt : compare(line, *best);
   lines_.push_back(line);
   if (lines_.size() > kMaxLines) lines_.pop_front();
-  return seen;
+  return changed;
 }
 
-void StallWatch::add(LineMotion::Seen seen, std::int64_t utime_us) {
+void StallWatch::add(std::optional<double> changed, std::int64_t utime_us) {
   const std::int64_t gap_us = utime_us - last_us_.value_or(utime_us);
   last_us_ = utime_us;
   if (gap_us > kMaxGap_us) {
@@ -97,9 +105,12 @@ void StallWatch::add(LineMotion::Seen seen, std::int64_t utime_us) {
   }
   const double spoken_for_us = std::clamp(static_cast<double>(gap_us), 0.0, kLineSpeaks_us);
   since_moving_us_ += spoken_for_us;
-  moving_lines_ = seen == LineMotion::Seen::kMoving ? moving_lines_ + 1 : 0;
-  if (moving_lines_ > 0) still_us_ = since_moving_us_ = 0.0;
-  if (seen == LineMotion::Seen::kStill) still_us_ += spoken_for_us;
+  const bool moves = changed && *changed > kMovingShare;
+  moving_lines_ = moves ? moving_lines_ + 1 : 0;
+  if (moves)
+    still_us_ = since_moving_us_ = 0.0;
+  else if (changed)
+    still_us_ += spoken_for_us * stillness(*changed);
   longest_still_.since_passage_us = std::max(longest_still_.since_passage_us, still_us_);
   longest_unmoved_.since_passage_us = std::max(longest_unmoved_.since_passage_us, since_moving_us_);
 }

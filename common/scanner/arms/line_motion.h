@@ -14,14 +14,9 @@ namespace voxlist::scanner {
 /// the robot's own motion does not in so short a time.
 class LineMotion {
  public:
-  enum class Seen {
-    kNothing,  ///< too few returns, or no line to compare with
-    kStill,
-    kMoving,
-  };
-
-  /// Takes the next line and compares it with the one that was `lag_us` earlier.
-  Seen add(const LaserLine& line, double lag_us);
+  /// Takes the next line and compares it with the one that was `lag_us` earlier: the share of the
+  /// beams that met something else, 0 to 1. Nothing with too few returns, or no such line.
+  std::optional<double> add(const LaserLine& line, double lag_us);
 
   void reset() { lines_.clear(); }
 
@@ -30,12 +25,15 @@ class LineMotion {
 };
 
 /// Notices that the mirror stands, from how long lines have been still: longer than they ever were
-/// between the last passages of the arms (blind wedges, flat ground, a wall straight ahead). Knows
-/// nothing before the first few passages. Only lines that came count: time without them is no
-/// stillness, and after a tenth of a second without them the watch begins anew.
+/// between the last passages of the arms (blind wedges, flat ground, a wall straight ahead). The
+/// fewer beams changed, the more a line's time counts: where a turning mirror changes little, it
+/// does not change nothing. Knows nothing before the first few passages. Only lines that came
+/// count: time without them is no stillness, and after a tenth of a second without them the watch
+/// begins anew.
 class StallWatch {
  public:
-  void add(LineMotion::Seen seen, std::int64_t utime_us);
+  /// `changed`: the share of a line's beams, as LineMotion tells it.
+  void add(std::optional<double> changed, std::int64_t utime_us);
 
   /// An arm passed where it was expected: the mirror turned until now.
   void turned();
@@ -43,7 +41,7 @@ class StallWatch {
   /// Lines are still for longer than a turning mirror leaves them.
   bool stalled() const;
 
-  /// For how long lines have been still, microseconds.
+  /// For how long lines have been still, microseconds, each counted by how still it is.
   double still_us() const { return still_us_; }
 
   /// Lines changed not long ago: no longer than a turning mirror leaves them as they are.
