@@ -4,6 +4,7 @@
 //   TIME_MS MAP_UPDATE VERSION MAP_ID ANSWERS
 //   TIME_MS FREE_SPACE VERSION MAP_ID ANSWERS
 //   TIME_MS TRAVERSABILITY_NAME VERSION MAP_ID
+//   TIME_MS OBSTACLES UTIME sees|blind
 //   TIME_MS HEALTH SERVICE PID STATE COUNTER=N... MESSAGE
 //
 // OVERLAP: of the first mode. TIME_MS: of the wall clock, on arrival. Usage: bus_watch [SECONDS]:
@@ -19,6 +20,7 @@
 #include <voxlist/keyframe_t.hpp>
 #include <voxlist/localisation_t.hpp>
 #include <voxlist/map_update_t.hpp>
+#include <voxlist/obstacles_t.hpp>
 #include <voxlist/traversability_t.hpp>
 
 namespace {
@@ -52,6 +54,11 @@ void on_traversability(const lcm::ReceiveBuffer* buffer, const std::string& chan
   line(buffer, channel) << m->version << ' ' << m->map_id << std::endl;
 }
 
+void on_obstacles(const lcm::ReceiveBuffer* buffer, const std::string& channel,
+                  const voxlist::obstacles_t* m, void*) {
+  line(buffer, channel) << m->utime << ' ' << (m->blind.empty() ? "sees" : "blind") << std::endl;
+}
+
 void on_health(const lcm::ReceiveBuffer* buffer, const std::string& channel,
                const voxlist::health_t* m, void*) {
   line(buffer, channel) << m->service << ' ' << m->pid << ' ' << m->state;
@@ -74,6 +81,7 @@ int main(int argc, char** argv) {
   lcm.subscribeFunction("MAP_UPDATE", &on_map_update, nothing)->setQueueCapacity(1000);
   lcm.subscribeFunction("FREE_SPACE", &on_map_update, nothing)->setQueueCapacity(1000);
   lcm.subscribeFunction("TRAVERSABILITY_.*", &on_traversability, nothing)->setQueueCapacity(1000);
+  lcm.subscribeFunction("OBSTACLES", &on_obstacles, nothing)->setQueueCapacity(1000);
   lcm.subscribeFunction("HEALTH", &on_health, nothing)->setQueueCapacity(1000);
   const auto end = std::chrono::steady_clock::now() + timeout;
   while (std::chrono::steady_clock::now() < end) lcm.handleTimeout(100);
