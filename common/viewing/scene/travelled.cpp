@@ -14,9 +14,9 @@ constexpr double kStep_m = 0.1;
 // A pose that jumps so far was corrected: the robot did not drive there.
 constexpr double kJump_m = 1.0;
 
-// A full piece leaves out points that lie so near to the straight way past them: nobody sees them.
-// It goes on while it holds no more points than kMostKept after that.
-constexpr float kStraight_m = 0.02F;
+// A full piece leaves out points that lie so near to the straight way past them (m), which is more
+// than poses are off by from scan to scan. It goes on while no more than kMostKept are left.
+constexpr float kStraight_m = 0.05F;
 constexpr std::size_t kMostKept = Travelled::kPointsEach * 3 / 4;
 
 std::string topic_name(std::int64_t number) { return "path/" + std::to_string(number); }

@@ -19,9 +19,8 @@ class Board;
 class Travelled {
  public:
   static constexpr std::size_t kPointsEach = 64;
-  /// Topics that are kept, 1 MB: the last 1.2 km of a way that bends all the time, and the last 12
-  /// km of one that does so each metre.
-  static constexpr std::size_t kMostTopics = 250;
+  /// Topics that are kept, 0.4 MB: the last 4 km of a way that bends by 0.05 m each metre.
+  static constexpr std::size_t kMostTopics = 100;
 
   /// Adds a point of the map (m) where it is 0.1 m from the last one.
   void add(const Eigen::Vector3d& position, KeyframePoses& keyframes, std::int64_t now_us,
