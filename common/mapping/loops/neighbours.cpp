@@ -137,8 +137,8 @@ class Neighbours {
     return looker_.match(to, map, expected(from, to));
   }
 
-  // By odometry, and by a match where there is one that is vague: it knows yaw and what is across
-  // a corridor far better.
+  // Joins two keyframes by what odometry tells, and where there is a vague match by both: along a
+  // corridor the match knows yaw and the way across far better.
   bool join_by_both(std::size_t from, std::size_t to, double vaguest_rad) {
     const auto told = told_step(from, to);
     if (!told || std::sqrt(told->covariance(2, 2)) > vaguest_rad) return false;

@@ -22,8 +22,9 @@ constexpr double kInMap = 0.5;
 // stations: there the map alone decides, and with even odds 28 of 66 stations are placed.
 constexpr double kVaguest_m = 20.0;
 
-// From here on (m, rad) a place is another one: rays end elsewhere. Of 8 robots that passed for
-// being where they were expected, one had been carried 0.25 m along a corridor.
+// Two places farther apart than this (m, rad) are different ones, for rays end elsewhere. Of 8
+// robots that passed for being where they were expected, one had been carried 0.25 m along a
+// corridor.
 constexpr double kOther_m = 0.15, kOther_rad = 0.05;
 // A robot that was carried is at one given place of the map with this probability. A judgement: a
 // place that explains a scan as well as the expected one, as an alike room does, is no rival of it.

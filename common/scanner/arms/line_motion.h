@@ -41,7 +41,7 @@ class StallWatch {
   /// Lines are still for longer than a turning mirror leaves them.
   bool stalled() const;
 
-  /// For how long lines have been still, microseconds, each counted by how still it is.
+  /// The time for which lines have been still (us), each line weighted by how still it is.
   double still_us() const { return still_us_; }
 
   /// Lines changed not long ago: no longer than a turning mirror leaves them as they are.

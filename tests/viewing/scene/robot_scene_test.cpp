@@ -122,7 +122,7 @@ std::vector<float> path_of(const RobotScene& scene, const std::string& topic) {
 
 TEST(RobotScene, KeepsThePathInPiecesOfWhichOneGrows) {
   RobotScene scene(100);
-  // To and fro, farther each time: each point is needed.
+  // The robot goes to and fro, farther each time, so that each point is needed.
   for (int i = 0; i < 100; ++i) scene.take(pose(i % 2 == 0 ? 0.2 * i : -0.2 * i, i + 1), 0);
   EXPECT_EQ(find(scene, "path/0")->bytes.size(), 64U * 16);
   EXPECT_EQ(find(scene, "path/1")->bytes.size(), (100U - 64 + 1) * 16);
@@ -130,7 +130,7 @@ TEST(RobotScene, KeepsThePathInPiecesOfWhichOneGrows) {
 
 TEST(RobotScene, KeepsTheBendsOfALongPath) {
   RobotScene scene(100);
-  // To x = 6.2 m and back to 3 m, and on from x = 1009.6 m.
+  // The robot drives to x = 6.2 m and back to 3 m, and jumps to x = 1009.6 m.
   for (int i = 0; i < 32; ++i) scene.take(pose(0.2 * i, i + 1), 0);
   for (int i = 32; i < 48; ++i) scene.take(pose(0.2 * (62 - i), i + 1), 0);
   for (int i = 48; i < 65; ++i) scene.take(pose(1000.0 + 0.2 * i, i + 1), 0);
