@@ -5,7 +5,7 @@
 #include "voxlist/mapping/graph/loop_choice.h"
 #include "voxlist/mapping/loops/local_map.h"
 #include "voxlist/mapping/loops/look_memory.h"
-#include "voxlist/mapping/loops/odometry_step.h"
+#include "voxlist/mapping/loops/storeys.h"
 
 namespace voxlist::mapping {
 

@@ -6,6 +6,7 @@
 #include "voxlist/mapping/loops/look_memory.h"
 #include "voxlist/mapping/loops/neighbour_look.h"
 #include "voxlist/mapping/loops/odometry_step.h"
+#include "voxlist/mapping/loops/storeys.h"
 
 namespace voxlist::mapping {
 

@@ -1,7 +1,6 @@
 #include "voxlist/mapping/loops/odometry_step.h"
 
 #include <Eigen/LU>
-#include <cmath>
 
 #include "voxlist/matching/motion/pose_fusion.h"
 #include "voxlist/matching/motion/tracked_pose.h"
@@ -14,12 +13,6 @@ namespace {
 constexpr double kAgree2 = 3.5 * 3.5;
 
 }  // namespace
-
-bool may_share_floor(const DriveHeights& heights_m, std::size_t a, std::size_t b) {
-  // Storeys are farther apart (m), and what a drive's height drifts by is less.
-  constexpr double kStorey_m = 1.5;
-  return heights_m.empty() || std::abs(heights_m[a] - heights_m[b]) < kStorey_m;
-}
 
 std::optional<UncertainPose> odometry_step(const DriveOdometry& odometry, std::size_t from,
                                            std::size_t to) {

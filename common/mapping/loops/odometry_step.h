@@ -10,13 +10,6 @@ namespace voxlist::mapping {
 /// T_odom_keyframe of each keyframe, where odometry told it. Empty: there was none.
 using DriveOdometry = std::vector<std::optional<Pose2>>;
 
-/// Heights (m) of each keyframe's floor in the map, by which storeys above each other are told
-/// apart. Empty: all are on one.
-using DriveHeights = std::vector<double>;
-
-/// Whether two keyframes may be on one floor.
-bool may_share_floor(const DriveHeights& heights_m, std::size_t a, std::size_t b);
-
 /// T_from_to by odometry, as sure as odometry usually is.
 std::optional<UncertainPose> odometry_step(const DriveOdometry& odometry, std::size_t from,
                                            std::size_t to);

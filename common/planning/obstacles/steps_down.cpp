@@ -51,6 +51,25 @@ std::optional<float> fall_beyond(const std::vector<Seen>& seen, std::ptrdiff_t f
   return std::nullopt;
 }
 
+// Whether a place of the floor is a step lower than the one before it.
+bool is_step_down(const std::vector<Seen>& seen, std::size_t place, const FloorRule& rule,
+                  float wheels_m, float cell_m) {
+  const Seen &upper = seen[place - 1], &lower = seen[place];
+  const float least_m = rule.most_m(0.0F, lower.away_m);
+  if (upper.height_m - lower.height_m < least_m || wheels_m - lower.height_m < least_m)
+    return false;
+  const auto at = static_cast<std::ptrdiff_t>(place);
+  const auto behind = fall_beyond(seen, at, 1);
+  if (!behind) return false;
+  // Without floor before it there are the wheels.
+  const float before = fall_beyond(seen, at - 1, -1)
+                           .value_or((wheels_m - upper.height_m) / std::max(upper.away_m, cell_m));
+  const float ramp_m = std::max({0.0F, before, *behind}) * (lower.away_m - upper.away_m);
+  // What stands on the floor may be among it: the floor is no higher than a ramp before it.
+  const float upper_m = std::min(upper.height_m, wheels_m - before * upper.away_m + least_m);
+  return upper_m - lower.height_m - ramp_m >= least_m;
+}
+
 }  // namespace
 
 std::vector<TypedPoint> find_steps_down(const LocalGrid& grid, const LocalFloor& ground,
@@ -64,21 +83,8 @@ std::vector<TypedPoint> find_steps_down(const LocalGrid& grid, const LocalFloor&
     const double bearing_rad = kTurn_rad * sector / config.sectors;
     const std::vector<Seen> seen = floor_on(grid, ground, bearing_rad);
     for (std::size_t i = 1; i < seen.size(); ++i) {
+      if (!is_step_down(seen, i, rule, wheels_m, grid.cell_m())) continue;
       const Seen &upper = seen[i - 1], &lower = seen[i];
-      const float least_m = rule.most_m(0.0F, lower.away_m);
-      if (upper.height_m - lower.height_m < least_m || wheels_m - lower.height_m < least_m)
-        continue;
-      const auto at = static_cast<std::ptrdiff_t>(i);
-      const auto behind = fall_beyond(seen, at, 1);
-      if (!behind) continue;
-      // Without floor before it there are the wheels.
-      const float before =
-          fall_beyond(seen, at - 1, -1)
-              .value_or((wheels_m - upper.height_m) / std::max(upper.away_m, grid.cell_m()));
-      const float ramp_m = std::max({0.0F, before, *behind}) * (lower.away_m - upper.away_m);
-      // What stands on the floor may be among it: the floor is no higher than a ramp before it.
-      const float upper_m = std::min(upper.height_m, wheels_m - before * upper.away_m + least_m);
-      if (upper_m - lower.height_m - ramp_m < least_m) continue;
       const auto [sine, cosine] = elementary::sine_cosine(bearing_rad);
       const Eigen::Vector2d edge = upper.away_m * Eigen::Vector2d(cosine, sine);
       steps.push_back({{static_cast<float>(edge.x()), static_cast<float>(edge.y()), upper.height_m},
